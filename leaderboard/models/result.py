@@ -1,0 +1,87 @@
+"""What grading finds (``result.json``)."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, ModelWrapValidatorHandler, model_serializer, model_validator
+
+from leaderboard.models.benchmark import ReferenceKind, Sha256
+from leaderboard.models.strict import StrictModel
+
+_COUNTS = ("n", "n_pairs", "n_rated", "n_pairs_in_both")
+
+
+class Score(StrictModel):
+    """One number, or the reason why there is none."""
+
+    value: float | None
+    why: str | None = None
+
+    @model_serializer
+    def _leave_out_absent(self) -> dict[str, float | str | None]:
+        return {"value": self.value} if self.value is not None else {"value": None, "why": self.why}
+
+
+class SubsetScores(StrictModel):
+    """The scores of one subset of one scope, with the numbers of trials and pairs behind them.
+
+    In JSON the metrics stand beside the counts. ``n_rated`` counts trials that people judged;
+    ``n_pairs_in_both`` is given for easy and hard: how many of the pairs are in the other as well.
+    """
+
+    n: int = Field(ge=0)
+    n_pairs: int = Field(ge=0)
+    n_rated: int = Field(ge=0)
+    n_pairs_in_both: int | None = None
+    metrics: dict[str, Score]
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _gather_metrics(
+        cls, data: object, handler: ModelWrapValidatorHandler["SubsetScores"]
+    ) -> "SubsetScores":
+        if isinstance(data, dict) and "metrics" not in data:
+            counts = {key: data[key] for key in _COUNTS if key in data}
+            data = counts | {"metrics": {key: data[key] for key in data if key not in _COUNTS}}
+        return handler(data)
+
+    @model_serializer
+    def _spread_metrics(self) -> dict[str, object]:
+        counts: dict[str, object] = {k: getattr(self, k) for k in _COUNTS if getattr(self, k) is not None}
+        return counts | {name: score.model_dump() for name, score in self.metrics.items()}
+
+
+class Inputs(StrictModel):
+    """What was graded, against what."""
+
+    predictions_sha256: Sha256
+    reference_digest: Sha256
+    reference_kind: ReferenceKind
+
+
+class Coverage(StrictModel):
+    """How much of the benchmark was attempted: trials given, trials answered, properties that are whole."""
+
+    trials: int
+    answered: int
+    properties: tuple[str, ...] = Field(strict=False)
+    complete: bool
+
+
+class Check(StrictModel):
+    """A remark on the predictions that a reader should know."""
+
+    code: str
+    message: str
+
+
+class Result(StrictModel):
+    """The whole of ``result.json``; ``scores`` goes by scope (overall, property, scenario) and subset."""
+
+    format: Annotated[Literal[1], Field(alias="schema")] = 1
+    metrics_version: int
+    grader: str
+    submission: str | None
+    inputs: Inputs
+    coverage: Coverage
+    scores: dict[str, dict[str, SubsetScores]]
+    checks: tuple[Check, ...] = Field(default=(), strict=False)

@@ -1,0 +1,1 @@
+"""Values to text: problems, results and boards for terminals, files and other programs."""

@@ -1,0 +1,180 @@
+"""One submission's result for a terminal: accuracy beside people's, agreement, pairs and probabilities."""
+
+from collections.abc import Callable, Iterator, Mapping
+
+from rich.console import RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from leaderboard.models import Metadata, Result, Score, SubsetScores
+from leaderboard.models.benchmark import OVERALL
+from leaderboard.reference import Reference
+from leaderboard.report.terminal import (
+    ABSENT,
+    Terminal,
+    format_number,
+    format_p,
+    format_percent,
+    new_table,
+    reference_banner,
+    render_tables,
+)
+
+LARGE_GAP = 0.05
+ALPHA = 0.05
+
+Scores = Mapping[str, Mapping[str, SubsetScores]]
+
+
+def render_result(
+    result: Result,
+    reference: Reference,
+    people: Scores,
+    *,
+    metadata: Metadata | None = None,
+    terminal: Terminal | None = None,
+) -> str:
+    """Render a result with the human figures beside the model's.
+
+    Parameters
+    ----------
+    people
+        What ``grading.grade_people`` gives for the same reference.
+    metadata
+        Names the system, where it is known.
+    """
+    parts: list[RenderableType] = [
+        _heading(result, reference, metadata),
+        "",
+        _accuracy_table(result, reference, people),
+    ]
+    if reference.people is not None:
+        parts += [_agreement_table(result, reference)]
+    parts += [_probability_table(result, reference)]
+    parts += [Text(line, "dim") for line in _legend(result, reference)]
+    parts += [Text(f"warning: {check.code}: {check.message}", "yellow") for check in result.checks]
+    return render_tables(parts, terminal or Terminal())
+
+
+def _heading(result: Result, reference: Reference, metadata: Metadata | None) -> Text:
+    coverage = result.coverage
+    title = Text(metadata.submission.name if metadata else "Predictions", "bold")
+    if metadata:
+        protocol = metadata.protocol
+        title.append(
+            f"  {metadata.submission.team}; training {protocol.training}, testing {protocol.testing}",
+            "not bold",
+        )
+    title.append("\n").append(reference_banner(reference))
+    covered = f"{len(coverage.properties)} of {len(reference.benchmark.properties)} properties"
+    given = f"{coverage.trials} of {reference.n_trials} trials, {coverage.answered} answered"
+    title.append(f"\n{given}; {covered} complete")
+    if not coverage.complete:
+        title.append("\nPartial: without all properties there is no overall score and no rank.", "yellow")
+    return title
+
+
+def _scope_rows(result: Result, reference: Reference) -> Iterator[tuple[str, str]]:
+    """Yield each graded scope with the name to show, scenarios indented under their property."""
+    titles = [(OVERALL, "overall")]
+    for property_ in reference.benchmark.properties:
+        titles.append((property_.name, property_.name))
+        titles += [(s.id, f"  {s.title}") for s in reference.benchmark.scenarios_of(property_.name)]
+    yield from ((scope, title) for scope, title in titles if scope in result.scores)
+
+
+def _score(scores: Scores, scope: str, subset: str, metric: str) -> Score | None:
+    found = scores.get(scope, {}).get(subset)
+    return found.metrics.get(metric) if found else None
+
+
+def _accuracy_table(result: Result, reference: Reference, people: Scores) -> Table:
+    columns = ["accuracy, %", "trials", "model", "people", "gap", "p"]
+    subsets = ("easy", "hard") if reference.people is not None else ()
+    columns += [name for subset in subsets for name in (subset, "people")]
+    table = new_table(columns)
+    for scope, title in _scope_rows(result, reference):
+        model = _score(result.scores, scope, "all", "accuracy")
+        p = _score(result.scores, scope, "all", "accuracy_p")
+        cells: list[str | Text] = [title, str(result.scores[scope]["all"].n), _mark_chance(model, p)]
+        cells += [format_percent(_score(people, scope, "all", "accuracy"))]
+        cells += [_mark_gap(_score(result.scores, scope, "all", "human_gap")), format_p(p)]
+        for subset in subsets:
+            cells += [format_percent(_score(result.scores, scope, subset, "accuracy"))]
+            cells += [format_percent(_score(people, scope, subset, "accuracy"))]
+        table.add_row(*cells, style="bold" if scope == OVERALL else "")
+    return table
+
+
+def _mark_chance(accuracy: Score | None, p: Score | None) -> Text:
+    is_above = p is not None and p.value is not None and p.value < ALPHA
+    return Text(format_percent(accuracy) + ("*" if is_above else " "))
+
+
+def _mark_gap(gap: Score | None) -> Text:
+    """Show a gap in percentage points with its sign; an arrow and colour mark a large one."""
+    if gap is None or gap.value is None:
+        return Text(ABSENT)
+    text = f"{100 * gap.value:+.1f}"
+    if abs(gap.value) < LARGE_GAP:
+        return Text(text + "  ")
+    return Text(text + " ▲", "green") if gap.value > 0 else Text(text + " ▼", "red")
+
+
+def _metric_table(
+    result: Result,
+    reference: Reference,
+    title: str,
+    columns: Mapping[str, tuple[str, str, Callable[[Score | None], str]]],
+) -> Table:
+    """Tabulate metrics by scope; each column names its metric, its subset and how to show it."""
+    table = new_table([title, *columns])
+    for scope, name in _scope_rows(result, reference):
+        cells = [
+            show(_score(result.scores, scope, subset, metric)) for metric, subset, show in columns.values()
+        ]
+        table.add_row(name, *cells, style="bold" if scope == OVERALL else "")
+    return table
+
+
+def _agreement_table(result: Result, reference: Reference) -> Table:
+    columns = {
+        "r": ("human_r", "all", format_number),
+        "partial r": ("human_r_partial", "all", format_number),
+        "r easy": ("human_r", "easy", format_number),
+        "r hard": ("human_r", "hard", format_number),
+        "rmse": ("human_rmse", "all", format_number),
+        "error kappa": ("error_consistency", "all", format_number),
+        "answer kappa": ("cohen_kappa", "all", format_number),
+    }
+    return _metric_table(result, reference, "agreement with people", columns)
+
+
+def _probability_table(result: Result, reference: Reference) -> Table:
+    columns = {
+        "both right, %": ("pair_accuracy", "all", format_percent),
+        "in order, %": ("pair_order", "all", format_percent),
+        "AUC": ("auc", "all", format_number),
+        "Brier": ("brier", "all", format_number),
+        "ECE": ("ece", "all", format_number),
+        "YES, %": ("yes_rate", "all", format_percent),
+    }
+    return _metric_table(result, reference, "pairs and probabilities", columns)
+
+
+def _legend(result: Result, reference: Reference) -> Iterator[str]:
+    yield f"* above chance: exact one-sided p < {ALPHA}, not corrected for the number of rows."
+    if reference.people is not None:
+        yield f"▲ ▼ the model is {100 * LARGE_GAP:.0f} points or more above or below people, same trials."
+    reasons = dict.fromkeys(
+        score.why
+        for subsets in result.scores.values()
+        for scores in subsets.values()
+        for score in scores.metrics.values()
+        if score.why
+    )
+    shown = list(reasons)[:3]
+    if shown:
+        yield f"{ABSENT} undefined: {'; '.join(shown)}" + (
+            " and other reasons, see result.json" if len(reasons) > len(shown) else ""
+        )

@@ -1,0 +1,73 @@
+"""Words and addresses that several pages share."""
+
+from leaderboard.grading import Metric
+from leaderboard.ranking import Board, Entry
+from leaderboard.website.material import Material
+from leaderboard.website.numbers import show_bound
+
+
+def board_path(board: Board) -> str:
+    """Say where a track's board is: the default one is the site's first page."""
+    return "index.html" if board.track.default else f"tracks/{board.track.id}/index.html"
+
+
+def submission_path(slug: str) -> str:
+    """Say where a submission's page is."""
+    return f"submissions/{slug}/index.html"
+
+
+def count_of(count: int, one: str, many: str = "") -> str:
+    """Count things in words.
+
+    >>> count_of(1, "trial"), count_of(1200, "trial"), count_of(2, "person", "people")
+    ('1 trial', '1,200 trials', '2 people')
+    """
+    return f"{count:,} {one if count == 1 else many or one + 's'}"
+
+
+def badges_of(entry: Entry) -> tuple[str, ...]:
+    """Say in words what a reader must know before comparing an entry with others."""
+    marks = {
+        "baseline": entry.is_baseline,
+        "partial": not entry.is_complete,
+        "ground-truth state as input": entry.metadata.model.inputs == "state",
+        "see its checks": bool(entry.result.checks) and not entry.is_baseline,
+    }
+    return tuple(badge for badge, applies in marks.items() if applies)
+
+
+def describe_coverage(entry: Entry, material: Material) -> str:
+    """Say how much of the benchmark a submission attempts."""
+    coverage = entry.result.coverage
+    properties = ", ".join(coverage.properties) or "no whole property"
+    return f"covers {properties}; {coverage.trials:,} of {material.reference.n_trials:,} trials"
+
+
+def describe_people(material: Material) -> str:
+    """Say how many people judged the trials, as far as that is known."""
+    people = material.reference.people
+    if people is None:
+        return ""
+    responses = f"{int(people.n.sum()):,} responses"
+    if people.responses is None:
+        return responses
+    return f"{count_of(len(people.responses.participant_ids), 'person', 'people')}, {responses}"
+
+
+def describe_chance(metric: Metric) -> str:
+    """Print what guessing gives, or nothing where that is not one number."""
+    if metric.chance is None:
+        return ""
+    return show_bound(metric, metric.chance)
+
+
+def describe_subset(subset: str, material: Material) -> str:
+    """Say which trials are in a subset."""
+    grading = material.reference.benchmark.grading
+    what = "Pairs of which at least one trial was" if material.has_pairs else "Trials"
+    rule = f"{what} answered rightly by"
+    return {
+        "all": "Every trial.",
+        "easy": f"{rule} more than {grading.easy} of the people.",
+        "hard": f"{rule} fewer than {grading.hard} of the people.",
+    }[subset]

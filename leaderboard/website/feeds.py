@@ -1,0 +1,50 @@
+"""News of the board as an Atom feed: one item per submission, dated by the submission itself."""
+
+import uuid
+
+from leaderboard.models.benchmark import OVERALL
+from leaderboard.ranking import Entry
+from leaderboard.website.describing import badges_of
+from leaderboard.website.material import Material
+from leaderboard.website.numbers import show_percent
+from leaderboard.website.pages import Feed, FeedItem
+
+NEVER = "1970-01-01"
+
+
+def compose_feed(material: Material) -> Feed:
+    """Gather the feed's items, newest first; baselines are no news."""
+    benchmark = material.reference.benchmark
+    entries = [p.entry for p in material.publications if not p.entry.is_baseline]
+    entries.sort(key=lambda entry: entry.metadata.submission.date, reverse=True)
+    items = tuple(_compose_item(entry, material) for entry in entries)
+    return Feed(
+        id=_name_forever(material, ""),
+        title=f"{benchmark.title} leaderboard" + (" (synthetic)" if material.reference.is_synthetic else ""),
+        updated=items[0].updated if items else _at_midnight(NEVER),
+        entries=items,
+    )
+
+
+def _compose_item(entry: Entry, material: Material) -> FeedItem:
+    about = entry.metadata.submission
+    accuracy = entry.score("accuracy", OVERALL)
+    scored = f"Accuracy {show_percent(accuracy.value)} %. " if accuracy and accuracy.value is not None else ""
+    badges = f"({', '.join(badges_of(entry))}) " if badges_of(entry) else ""
+    return FeedItem(
+        id=_name_forever(material, entry.slug),
+        slug=entry.slug,
+        title=about.name,
+        author=about.team,
+        updated=_at_midnight(about.date.isoformat()),
+        summary=f"{scored}{badges}{about.description}".strip(),
+    )
+
+
+def _name_forever(material: Material, slug: str) -> str:
+    """Make an address-free identifier that stays the same wherever the site is served."""
+    return uuid.uuid5(uuid.NAMESPACE_URL, f"leaderboard/{material.reference.benchmark.name}/{slug}").urn
+
+
+def _at_midnight(date: str) -> str:
+    return f"{date}T00:00:00Z"

@@ -1,0 +1,45 @@
+"""A tab that notes whatever a page does that it should not."""
+
+from dataclasses import dataclass, field
+
+from playwright.sync_api import Browser, Page, Request, Response
+
+FIRST_ERROR = 400
+
+
+@dataclass
+class Visit:
+    """A tab on a site, and what it complained about so far."""
+
+    page: Page
+    origin: str
+    complaints: list[str] = field(default_factory=list)
+
+    def open(self, path: str) -> Page:
+        """Open a page of the site."""
+        self.page.goto(f"{self.origin}/{path}")
+        return self.page
+
+    def watch(self) -> None:
+        """Note requests that leave the site or fail, errors, and anything on the console."""
+        self.page.on("request", self._check_request)
+        self.page.on("response", self._check_response)
+        self.page.on("requestfailed", lambda request: self.complaints.append(f"failed: {request.url}"))
+        self.page.on("console", lambda message: self.complaints.append(f"console: {message.text}"))
+        self.page.on("pageerror", lambda error: self.complaints.append(f"error: {error}"))
+
+    def _check_request(self, request: Request) -> None:
+        if not request.url.startswith(f"{self.origin}/"):
+            self.complaints.append(f"leaves the site: {request.url}")
+
+    def _check_response(self, response: Response) -> None:
+        if response.status >= FIRST_ERROR:
+            self.complaints.append(f"status {response.status}: {response.url}")
+
+
+def start_visit(browser: Browser, origin: str, *, width: int = 1280, javascript: bool = True) -> Visit:
+    """Open a tab of its own, watched from the start."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, java_script_enabled=javascript)
+    visit = Visit(context.new_page(), origin)
+    visit.watch()
+    return visit

@@ -1,0 +1,122 @@
+"""The numbers for programs: JSON and CSV say what the pages say."""
+
+import csv
+import io
+import json
+
+import pytest
+
+from builders import build_reference
+from leaderboard.grading import METRICS
+from leaderboard.website.exports import reference_data, render_csv
+from leaderboard.website.material import Material
+from site_builders import HOSTILE_NAME, HOSTILE_TEAM, build_material
+
+
+@pytest.fixture(scope="module")
+def rows(files: dict[str, bytes]) -> dict[str, dict[str, str]]:
+    text = files["leaderboard.csv"].decode()
+    return {row["slug"]: row for row in csv.DictReader(io.StringIO(text))}
+
+
+def test_the_table_has_one_row_per_submission(
+    rows: dict[str, dict[str, str]], files: dict[str, bytes]
+) -> None:
+    """Ranked by track, then baselines and submissions without a track; nobody twice."""
+    kinds = {slug: (row["track"], row["rank"], row["kind"]) for slug, row in rows.items()}
+    assert kinds == {
+        "good": ("with", "1", "ranked"),
+        "good-too": ("with", "1", "ranked"),
+        "hostile": ("with", "3", "ranked"),
+        "part": ("with", "", "partial"),
+        "sliver": ("with", "", "partial"),
+        "other-track": ("without", "1", "ranked"),
+        "oracle": ("", "", "baseline"),
+        "flat": ("", "", "baseline"),
+        "nowhere": ("", "", "undefined"),
+    }
+    assert len(files["leaderboard.csv"].splitlines()) == len(rows) + 1
+
+
+def test_the_table_has_every_metric_overall_and_by_property(
+    rows: dict[str, dict[str, str]], material: Material
+) -> None:
+    """Values are those of the results with all digits; what is undefined or absent is empty."""
+    for publication in material.publications:
+        for metric in METRICS:
+            for scope in ("overall", "Alpha", "Beta"):
+                score = publication.entry.score(metric.name, scope)
+                expected = "" if score is None or score.value is None else str(score.value)
+                assert rows[publication.entry.slug][f"{metric.name}.{scope}"] == expected
+
+
+def test_the_table_cannot_run_in_a_spreadsheet(rows: dict[str, dict[str, str]]) -> None:
+    """Text that begins like a formula gets an apostrophe; numbers stay numbers."""
+    assert rows["hostile"]["name"] == f"'{HOSTILE_NAME}"
+    assert rows["hostile"]["team"] == HOSTILE_TEAM
+    texts = ("slug", "name", "system", "team", "family", "inputs")
+    assert not [row[key] for row in rows.values() for key in texts if row[key].startswith(tuple("=+-@\t\r"))]
+
+
+def test_the_table_says_that_the_reference_is_synthetic(rows: dict[str, dict[str, str]]) -> None:
+    """No row can be quoted as a real figure by mistake."""
+    assert {row["reference"] for row in rows.values()} == {"synthetic"}
+
+
+def test_each_submission_has_its_scores_and_its_place(files: dict[str, bytes], material: Material) -> None:
+    """One file holds the metadata, the result as graded, track and rank."""
+    for publication in material.publications:
+        entry = publication.entry
+        data = json.loads(files[f"api/submissions/{entry.slug}.json"])
+        assert data["slug"] == entry.slug
+        assert data["result"] == json.loads(publication.files["result.json"])
+        assert data["metadata"]["submission"]["name"] == entry.metadata.submission.name
+    places = {
+        slug: json.loads(files[f"api/submissions/{slug}.json"]) for slug in ("good", "other-track", "oracle")
+    }
+    assert [(data["track"], data["rank"], data["kind"]) for data in places.values()] == [
+        ("with", 1, "ranked"),
+        ("without", 1, "ranked"),
+        (None, None, "baseline"),
+    ]
+
+
+def test_the_board_file_holds_every_track_and_row(files: dict[str, bytes]) -> None:
+    """Boards with rows in order, people's scores, and what each metric is."""
+    data = json.loads(files["api/leaderboard.json"])
+    assert data["reference"] == {"kind": "synthetic", "digest": "0" * 64}
+    assert [metric["name"] for metric in data["metrics"]] == [metric.name for metric in METRICS]
+    rows = {track["id"]: [row["slug"] for row in track["rows"]] for track in data["tracks"]}
+    assert rows == {
+        "with": ["good", "good-too", "hostile", "part", "sliver", "oracle", "flat"],
+        "without": ["other-track", "oracle", "flat"],
+    }
+    assert [row["slug"] for row in data["unplaced"]] == ["nowhere"]
+    assert data["people"]["overall"]["all"]["n_rated"] == 24
+
+
+def test_the_reference_is_described_without_its_labels(files: dict[str, bytes]) -> None:
+    """Identity and sizes; nothing that could be learnt from."""
+    data = json.loads(files["api/reference.json"])
+    assert (data["kind"], data["digest"]) == ("synthetic", "0" * 64)
+    assert data["counts"]["all"] == {"trials": 24, "pairs": 12, "rated_trials": 24}
+    assert list(data["counts"]) == ["all", "easy", "hard"]
+    assert data["people"] == {"participants": 12, "responses": 144}
+    assert [(part["name"], part["trials"]) for part in data["properties"]] == [("Alpha", 16), ("Beta", 8)]
+    assert [scenario["trials"] for part in data["properties"] for scenario in part["scenarios"]] == [8, 8, 8]
+    assert "label" not in files["api/reference.json"].decode()
+
+
+def test_people_are_counted_as_far_as_they_are_known() -> None:
+    """With counts only, nobody knows how many people there were; without human data there were none."""
+    counted = build_material(build_reference(responses=False), [])
+    assert reference_data(counted)["people"] == {"participants": None, "responses": 144}
+    lonely = build_material(build_reference(n_people=0), [])
+    assert reference_data(lonely)["people"] == {"participants": None, "responses": 0}
+
+
+def test_an_empty_board_has_an_empty_table() -> None:
+    """The header stays."""
+    lines = render_csv(build_material(entries=[])).splitlines()
+    assert len(lines) == 1
+    assert lines[0].startswith("track,rank,kind,slug,name,")

@@ -1,0 +1,212 @@
+"""The page of a submission: every score, what it says of itself, and how to check it."""
+
+from dataclasses import replace
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import pytest
+
+from builders import build_entry, build_reference
+from leaderboard.grading import METRICS
+from leaderboard.website.building import compose_pages
+from leaderboard.website.material import Material
+from leaderboard.website.numbers import ABSENT, MINUS
+from leaderboard.website.pages import SubmissionPage
+from leaderboard.website.scorecards import compose_scorecard
+from site_builders import build_material, parse_html, render_files, text_of
+
+
+@pytest.fixture(scope="module")
+def pages(material: Material) -> dict[str, SubmissionPage]:
+    return {page.slug: page for _, page in compose_pages(material) if isinstance(page, SubmissionPage)}
+
+
+def facts_of(page: Element, title: str) -> list[str]:
+    return [
+        text_of(next(fact.iter("dd")))
+        for fact in page.iter("div")
+        if list(fact) and fact[0].tag == "dt" and text_of(fact[0]) == title
+    ]
+
+
+def test_every_metric_is_on_the_page(pages: dict[str, SubmissionPage], material: Material) -> None:
+    """Each metric has a column with the result's values in every scope and subset, or is named below it."""
+    (entry,) = [p.entry for p in material.publications if p.entry.slug == "hostile"]
+    for table in pages["hostile"].tables:
+        columns = {column.metric: index for index, column in enumerate(table.columns) if not column.is_people}
+        assert list(columns) == [metric.name for metric in METRICS]
+        graded = [scope for scope, subsets in entry.result.scores.items() if table.subset in subsets]
+        scopes = [scope for scope in graded if scope != "beta_one"]
+        for row, scope in zip(table.rows, scopes, strict=True):
+            for metric, index in columns.items():
+                score = entry.score(metric, scope, table.subset)
+                exact = row.cells[index].exact
+                assert score is not None
+                assert (float(exact) if exact else None) == score.value
+
+
+def test_printed_numbers_are_the_exact_ones_rounded(files: dict[str, bytes]) -> None:
+    """In every table of every submission, what is printed lies within half a digit of what is meant."""
+    seen = 0
+    for path, content in files.items():
+        if path.startswith("submissions/") and path.endswith(".html"):
+            for cell in parse_html(content).iter("td"):
+                if cell.get("data-value") and not text_of(cell).startswith("<"):
+                    assert_rounded(text_of(cell), float(cell.get("data-value", "nan")))
+                    seen += 1
+    assert seen > 1000
+
+
+def assert_rounded(printed: str, exact: float) -> None:
+    digits = len(printed.partition(".")[2])
+    factor = 1 if digits == 3 else 100
+    number = float(printed.replace(MINUS, "-"))
+    assert abs(number - factor * exact) <= 0.5 * 10**-digits + 1e-9
+
+
+def test_people_stand_beside_the_submission(pages: dict[str, SubmissionPage], material: Material) -> None:
+    """Where people have a score of their own it follows the submission's, in every scope."""
+    table = pages["good"].tables[0]
+    places = [index for index, column in enumerate(table.columns) if column.is_people]
+    assert [table.columns[index].metric for index in places] == ["accuracy", "yes_rate"]
+    assert [table.columns[index - 1].metric for index in places] == ["accuracy", "yes_rate"]
+    human = material.people_score("accuracy", "overall", "all")
+    assert human is not None
+    assert float(table.rows[0].cells[places[0]].exact) == human.value
+
+
+def test_scopes_are_nested(pages: dict[str, SubmissionPage]) -> None:
+    """Overall, then each property with its scenarios, if there are several; easy and hard go without."""
+    rows = {table.subset: [(row.title, row.level) for row in table.rows] for table in pages["good"].tables}
+    properties = [("Overall", 0), ("Alpha", 1), ("Beta", 1)]
+    assert rows["easy"] == rows["hard"] == properties
+    assert rows["all"] == [
+        ("Overall", 0),
+        ("Alpha", 1),
+        ("alpha one", 2),
+        ("alpha two", 2),
+        ("Beta", 1),
+    ]
+
+
+def test_a_lone_scenario_stands_under_its_property(pages: dict[str, SubmissionPage]) -> None:
+    """A property that is not whole is a heading with dashes, so that no scenario seems to be another's."""
+    (table,) = pages["sliver"].tables
+    assert [(row.title, row.level) for row in table.rows] == [("Alpha", 1), ("alpha one", 2)]
+    accuracy = table.rows[0].cells[0]
+    assert (accuracy.text, accuracy.why) == (ABSENT, "not all of its scenarios are covered")
+    assert table.rows[0].counts == ("", "")
+    assert table.rows[1].counts == ("8", "4")
+
+
+def test_metrics_without_any_value_are_named_once(pages: dict[str, SubmissionPage]) -> None:
+    """A column of dashes for one reason would say less than a sentence."""
+    table = pages["flat"].tables[0]
+    omitted = {fact.title: fact.text for fact in table.omitted}
+    assert omitted == {
+        "Human r, Human r, label partialled out": "undefined: all probabilities are equal",
+    }
+    assert "human_r" not in [column.metric for column in table.columns]
+
+
+def test_the_standing_is_a_sentence(pages: dict[str, SubmissionPage]) -> None:
+    """Rank, or the reason why there is none."""
+    assert pages["hostile"].standing == "Rank 3 of 3 by overall accuracy."
+    assert pages["part"].standing == "Not ranked, because it is partial: covers Beta; 8 of 24 trials."
+    assert pages["oracle"].standing == "A baseline: shown on every board for reference, not ranked."
+    assert pages["nowhere"].standing == "On no board, because no track has its protocol."
+
+
+def test_the_page_leads_back_to_its_own_board(pages: dict[str, SubmissionPage]) -> None:
+    """A submission of another track belongs to that board."""
+    assert pages["good"].board.target == "index.html"
+    assert pages["other-track"].board.target == "tracks/without/index.html"
+
+
+def test_headline_numbers_are_overall_or_what_is_covered(pages: dict[str, SubmissionPage]) -> None:
+    """A complete submission leads with its overall scores, a partial one with what it has."""
+    assert [tile.title for tile in pages["good"].tiles] == [
+        "Accuracy",
+        "Accuracy, easy",
+        "Accuracy, hard",
+        "Human r",
+        "Both right",
+    ]
+    assert [tile.title for tile in pages["part"].tiles] == ["Beta"]
+    assert [tile.title for tile in pages["sliver"].tiles] == ["alpha one"]
+
+
+def test_headline_numbers_come_with_people_and_chance(pages: dict[str, SubmissionPage]) -> None:
+    """A number alone says little; an undefined one says why."""
+    accuracy, *_, human_r, pairs = pages["flat"].tiles
+    assert accuracy.cell.text == "50.0"
+    assert accuracy.below.startswith("people ")
+    assert accuracy.below.endswith(", chance 50 %")
+    assert (human_r.cell.text, human_r.unit) == (ABSENT, "")
+    assert human_r.below == "undefined: all probabilities are equal"
+    assert pairs.below == "chance 25 %"
+
+
+def test_checks_are_shown_as_text(files: dict[str, bytes]) -> None:
+    """What grading remarked is on the page, markup and all, as plain text."""
+    page = parse_html(files["submissions/good-too/index.html"])
+    assert facts_of(page, "near-duplicate") == ["nearly equal to <b>another</b>"]
+
+
+def test_metadata_is_complete_and_links_are_not_endorsed() -> None:
+    """All that a submission says of itself is there; links out say that we do not vouch for them."""
+    reference = build_reference()
+    entry = build_entry(
+        reference, "full", [0.6] * reference.n_trials, training_trials=2000, auxiliary="implicit"
+    )
+    links = entry.metadata.links.model_copy(update={"paper": "https://example.com/?a=1&b=2"})
+    model = entry.metadata.model.model_copy(update={"parameters": "32M", "pretraining": "none"})
+    metadata = entry.metadata.model_copy(update={"links": links, "model": model})
+    material = build_material(reference, [replace(entry, metadata=metadata)])
+    page = parse_html(render_files(material)["submissions/full/index.html"])
+    expected = {
+        "Team": "Team",
+        "Testing": "with property",
+        "Training trials": "2,000",
+        "Auxiliary": "implicit",
+        "Parameters": "32M",
+        "Pretraining": "none",
+        "Paper": "https://example.com/?a=1&b=2",
+        "Contact": "@someone",
+    }
+    assert {title: facts_of(page, title) for title in expected} == {k: [v] for k, v in expected.items()}
+    outward = [a for a in page.iter("a") if a.get("href", "").startswith("http")]
+    assert [a.get("href") for a in outward] == ["https://example.com/?a=1&b=2", "https://github.com/someone"]
+    assert {a.get("rel") for a in outward} == {"external noopener nofollow ugc"}
+
+
+def test_provenance_says_how_to_grade_again(files: dict[str, bytes], material: Material) -> None:
+    """Checksums, versions and the command are on the page."""
+    page = parse_html(files["submissions/good/index.html"])
+    result = next(p.entry.result for p in material.publications if p.entry.slug == "good")
+    assert facts_of(page, "Predictions (SHA-256)") == [result.inputs.predictions_sha256]
+    assert facts_of(page, "Reference digest") == [result.inputs.reference_digest]
+    assert facts_of(page, "Grade it again") == ["leaderboard grade submissions/good"]
+    assert facts_of(page, "Trials") == ["24 of 24 given, 24 answered"]
+
+
+def test_unanswered_trials_are_counted() -> None:
+    """How many trials got no answer is part of the provenance."""
+    reference = build_reference()
+    covered = np.arange(reference.n_trials) < 16
+    entry = build_entry(reference, "some", [0.6] * reference.n_trials, covered=covered.tolist())
+    page = parse_html(render_files(build_material(reference, [entry]))["submissions/some/index.html"])
+    assert facts_of(page, "Trials") == ["16 of 24 given, 16 answered"]
+
+
+def test_a_reference_without_pairs_speaks_of_trials() -> None:
+    """No count of pairs, no headline of pairs, and easy is a property of trials."""
+    paired = build_reference()
+    lone = tuple(f"pair-{index}" for index in range(paired.n_trials))
+    reference = replace(paired, pairs=np.arange(paired.n_trials), pair_ids=lone)
+    material = build_material(reference, [build_entry(reference, "one", [0.7] * reference.n_trials)])
+    page = compose_scorecard(material.publications[0], material)
+    assert {table.count_titles for table in page.tables} == {("Trials",)}
+    assert page.tables[1].caption == "Trials answered rightly by more than 2/3 of the people."
+    assert page.tables[0].rows[0].counts == ("24",)
+    assert [tile.title for tile in page.tiles][-1] == "Human r"
