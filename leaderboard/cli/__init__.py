@@ -26,6 +26,7 @@ COMMANDS = {
     "reference": "Show, check, seal, import or synthesize the reference data.",
     "convert": "Turn other tools' logs into predictions.csv.",
     "baselines": "Write the baselines (chance, always YES, human mean, label oracle) as submissions.",
+    "audit": "Check whether published numbers are possible, consistent and better than chance.",
 }
 
 

@@ -48,7 +48,7 @@ def human_r_partial(predicted: Floats, observed: Floats, labels: Integers) -> Es
 
     The label is 0 or 1, so regressing on it means subtracting the mean of each label's trials (Fisher 1924).
     Where all labels are equal there is nothing to take out and it equals ``human_r``. Undefined as
-    ``human_r`` is, and where either does not vary among the trials of one label.
+    ``human_r`` is, and where either is constant within each label.
 
     Parameters
     ----------
@@ -56,9 +56,8 @@ def human_r_partial(predicted: Floats, observed: Floats, labels: Integers) -> Es
 
     Examples
     --------
-    >>> human_r_partial(
-    ...     np.array([0.1, 0.2, 0.8, 0.9]), np.array([0.4, 0.3, 0.9, 0.8]), np.array([0, 0, 1, 1])
-    ... )
+    >>> predicted, observed = np.array([0.1, 0.2, 0.8, 0.9]), np.array([0.4, 0.3, 0.9, 0.8])
+    >>> round(human_r_partial(predicted, observed, np.array([0, 0, 1, 1])), 6)
     -1.0
     """
     plain = human_r(predicted, observed)
@@ -83,7 +82,7 @@ def human_rmse(predicted: Floats, observed: Floats) -> Estimate:
     return float(np.sqrt(np.mean((predicted - observed) ** 2)))
 
 
-def mean_kappa(predicted: Floats, observed: Integers, persons: Integers) -> Estimate:
+def mean_kappa(predicted: Floats, observed: Floats | Integers, persons: Integers) -> Estimate:
     """Mean over people of Cohen's kappa between a model and a person, in [-1, 1]; chance gives 0.
 
     With a the model's value and b the person's over the trials that this person saw,
@@ -96,8 +95,8 @@ def mean_kappa(predicted: Floats, observed: Integers, persons: Integers) -> Esti
     ----------
     predicted : (n_responses,), each 0, 0.5 or 1
         The model's value on the trial of each response.
-    observed : (n_responses,), each 0 or 1
-        The person's.
+    observed : (n_responses,), each 0, 0.5 or 1
+        The person's, or another model's.
     persons : (n_responses,)
         Who responded, as non-negative integers.
 

@@ -27,6 +27,14 @@ def test_a_pair_is_two_trials_that_share_a_number(pairs: list[int], found: list[
     assert find_pairs(np.array(pairs, np.int64)).tolist() == found
 
 
+def test_every_pair_of_a_large_benchmark_is_found_once() -> None:
+    """In any order of trials, the earlier member first, pairs by number."""
+    pairs = np.random.default_rng(0).permutation(np.repeat(np.arange(2000), 2))
+    members = find_pairs(pairs)
+    assert pairs[members].tolist() == [[number, number] for number in range(2000)]
+    assert (members[:, 0] < members[:, 1]).all()
+
+
 def test_opposite_pairs_name_the_yes_member_first() -> None:
     """Pairs of equal labels are left out."""
     pairs, labels = np.array([0, 1, 2, 0, 1, 2]), np.array([0, 1, 1, 1, 0, 1])
