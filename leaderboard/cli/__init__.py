@@ -21,6 +21,7 @@ COMMANDS = {
     "grade": "Validate and score submission folders or prediction files.",
     "submit": "Make submissions/<slug>/ from prediction files: valid and graded, or nothing.",
     "rank": "Print the board of a track.",
+    "compare": "Compare two submissions by pairs: differences with intervals and exact tests.",
     "verify": "Grade everything again and prove every committed result.",
     "site": "Build or serve the website.",
     "reference": "Show, check, seal, import or synthesize the reference data.",

@@ -83,3 +83,39 @@ def accuracy_p(credits: Floats, labels: Integers, pairs: Integers, answered: Boo
 def _binomials(n: int) -> Iterator[int]:
     """Yield n over 0, n over 1, ..., n over n, each from the one before."""
     return accumulate(range(n), lambda previous, i: previous * (n - i) // (i + 1), initial=1)
+
+
+def paired_p(differences: Integers) -> float:
+    """Exact two-sided p of a paired comparison, in (0, 1].
+
+    If two systems are equally good, exchanging them in a pair of trials changes the sign of its difference
+    and nothing else, so each sign has probability 1/2 (Fisher 1935). p is the probability that the sum of
+    randomly signed differences is at least as far from 0 as the observed sum. It is counted in whole
+    numbers: the number of patterns with positive differences of sum s is the coefficient of x^s in the
+    product of (1 + x^|d|), which is multiplied out as one long integer (Kronecker substitution).
+
+    Parameters
+    ----------
+    differences : (n_pairs,)
+        Whole numbers, such as twice the difference of two sums of credits; zeros do not matter.
+
+    Examples
+    --------
+    >>> paired_p(np.array([2, 2, -1, 0])), paired_p(np.array([1, -1]))
+    (0.5, 1.0)
+    """
+    sizes = np.abs(differences)
+    sizes = sizes[sizes > 0].tolist()
+    observed = abs(int(differences.sum()))
+    if not observed:
+        return 1.0
+    width = len(sizes) // 8 + 1  # bytes that hold any coefficient
+    product = 1
+    for size in sorted(set(sizes)):
+        product *= (1 + (1 << (8 * width * size))) ** sizes.count(size)
+    smallest = (observed + sum(sizes) + 1) // 2  # sum of the positive ones that reaches the observed sum
+    tail = product >> (8 * width * smallest)
+    digits = tail.to_bytes(width * (sum(sizes) - smallest + 1), "little")
+    count = sum(int.from_bytes(digits[i : i + width], "little") for i in range(0, len(digits), width))
+    share: float = 2 * count / 2 ** len(sizes)
+    return max(share, SMALLEST)

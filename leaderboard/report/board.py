@@ -111,9 +111,7 @@ def _name_row(row: Row) -> RenderableType:
 
 
 def _board_notes(board: Board) -> list[str]:
-    notes = [
-        "Shares in %. Equal scores share a rank. Intervals are not shown yet: small differences mean little."
-    ]
+    notes = ["Shares in %. Equal scores share a rank. How sure a difference is: leaderboard compare A B."]
     if not board.ranked and not board.partial:
         notes.insert(0, "No submission on this track yet.")
     if board.partial:

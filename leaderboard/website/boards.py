@@ -186,7 +186,12 @@ def _describe_order(material: Material) -> str:
 
 
 def _list_remarks(material: Material) -> tuple[Fact, ...]:
-    remarks = [Fact("How sure", "Intervals are not shown yet: small differences mean little.")]
+    remarks = [
+        Fact(
+            "How sure",
+            "Intervals are not shown yet. leaderboard compare A B says how sure a difference is.",
+        )
+    ]
     if material.people:
         remarks += [Fact(subset.title(), describe_subset(subset, material)) for subset in ("easy", "hard")]
         caution = (

@@ -365,6 +365,35 @@ class TestVerify:
         assert "0 of 0 results proven" in output
 
 
+class TestCompare:
+    """``leaderboard compare``."""
+
+    def test_table_and_json_agree(self, run: Run, example: Path, repo_root: Path) -> None:
+        """Slugs or paths; the difference is that of the accuracies, with its interval and exact p."""
+        particles = repo_root / "submissions/example-particles"
+        data = json.loads(run("compare", "example-slots", particles, "--json").output)
+        overall = data["scopes"][0]
+        expected = overall["accuracy_a"] - overall["accuracy_b"]
+        assert overall["difference"]["value"] == pytest.approx(expected, abs=2e-6)
+        output = run("compare", example, particles).output
+        assert f"{100 * overall['difference']['value']:+.1f}" in output
+        assert "SYNTHETIC reference" in output
+        assert data["trials"][0]["trial_id"] in output
+
+    @pytest.mark.usefixtures("example")
+    def test_an_unknown_name_is_answered_with_the_nearest(self, run: Run) -> None:
+        """One line and a hint."""
+        output = run("compare", "example-slots", "exmple-slots", exit_code=1).output
+        assert "there is no submission 'exmple-slots'" in output
+        assert "did you mean example-slots?" in output
+
+    def test_an_invalid_submission_is_not_compared(self, run: Run, example: Path) -> None:
+        """The message says where to look."""
+        _break(example, '",0.', '",x.')
+        output = run("compare", "example-slots", example, exit_code=1).output
+        assert "see: leaderboard validate submissions/example-slots" in output
+
+
 class TestReference:
     """``leaderboard reference``."""
 

@@ -1,7 +1,9 @@
 """The sign-flip distribution and the exact p of an accuracy."""
 
+import itertools
 from collections import Counter
 from fractions import Fraction
+from math import comb
 
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from leaderboard.metrics.accuracy import credits_of
-from leaderboard.metrics.exact_tests import accuracy_p, tail_probability
+from leaderboard.metrics.exact_tests import accuracy_p, paired_p, tail_probability
 from leaderboard.metrics.undefined import Undefined
 
 SMALL = st.integers(0, 25)
@@ -143,3 +145,22 @@ def test_p_is_positive_and_does_not_see_the_order(trials: list[tuple[float, int,
     assert isinstance(p, float)
     assert 0 < p <= 1
     assert _p(probabilities[::-1], labels[::-1], pairs[::-1], answered[::-1]) == p
+
+
+@given(st.lists(st.integers(-4, 4), max_size=9))
+def test_paired_p_equals_the_enumeration_of_all_signs(differences: list[int]) -> None:
+    """Every pattern of signs is tried, and those at least as far from 0 are counted."""
+    observed = abs(sum(differences))
+    sizes = [abs(d) for d in differences]
+    patterns = list(itertools.product((1, -1), repeat=len(sizes)))
+    sums = [sum(sign * size for sign, size in zip(signs, sizes, strict=True)) for signs in patterns]
+    reached = sum(abs(total) >= observed for total in sums)
+    found = paired_p(np.array(differences, dtype=np.int64))
+    assert found == pytest.approx(reached / len(patterns), rel=1e-15)
+
+
+def test_paired_p_of_ones_is_mcnemar_s_exact_test() -> None:
+    """With one trial a pair it is the binomial test on the discordant ones, to the last digit for 768."""
+    differences = np.repeat([2, -2, 0], [400, 300, 68])
+    expected = Fraction(2 * sum(comb(700, k) for k in range(400, 701)), 2**700)
+    assert paired_p(differences) == float(expected)

@@ -1,0 +1,89 @@
+"""Bootstrap draws that never change, and what is computed from them."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+from leaderboard.metrics.resampling import (
+    Interval,
+    draw_weights,
+    percentile_interval,
+    resample_correlation,
+)
+from leaderboard.metrics.undefined import Undefined
+
+STRATA = np.array([0, 0, 0, 1, 1, 2])
+FIRST = [[0, 2, 1, 1, 1, 1], [0, 1, 2, 1, 1, 1], [0, 0, 3, 1, 1, 1], [0, 0, 3, 1, 1, 1]]
+
+
+def test_the_first_draws_are_these_for_ever() -> None:
+    """Committed numbers: a NumPy that drew others would change every interval."""
+    assert draw_weights(STRATA, 4, seed=20231105, stream=0).tolist() == FIRST
+    assert draw_weights(STRATA, 4, seed=20231105, stream=1).tolist() != FIRST
+
+
+def test_draws_follow_from_the_published_stream_of_pcg64() -> None:
+    """The weights are counts of the high bits of raw numbers, computed here one by one."""
+    raw = np.random.PCG64(np.random.SeedSequence([7, 3])).random_raw(6)
+    numbers = [part for value in raw.tolist() for part in (value & 0xFFFFFFFF, value >> 32)]
+    expected = [[0, 0, 0, 0] for _ in range(3)]
+    for position, number in enumerate(numbers):
+        expected[position // 4][(number * 4) >> 32] += 1
+    assert draw_weights(np.zeros(4, np.int64), 3, seed=7, stream=3).tolist() == expected
+
+
+@given(
+    strata=st.lists(st.integers(0, 3), min_size=1, max_size=20),
+    n_resamples=st.integers(1, 30),
+    seed=st.integers(0, 2**63),
+)
+def test_each_resample_keeps_the_sizes_of_strata(strata: list[int], n_resamples: int, seed: int) -> None:
+    """Whatever the strata, their sizes are kept, and the same seed gives the same draws."""
+    groups = np.array(strata)
+    weights = draw_weights(groups, n_resamples, seed=seed, stream=0)
+    for stratum in set(strata):
+        assert (weights[:, groups == stratum].sum(axis=1) == (groups == stratum).sum()).all()
+    assert (weights == draw_weights(groups, n_resamples, seed=seed, stream=0)).all()
+
+
+def test_units_are_drawn_equally_often() -> None:
+    """Over many resamples a chi-square test finds nothing."""
+    counts = draw_weights(np.zeros(10, np.int64), 20_000, seed=1, stream=0).sum(axis=0)
+    assert stats.chisquare(counts).pvalue > 0.001
+
+
+def test_interval_is_of_the_defined_resamples_and_counts_the_others() -> None:
+    """NaN is neither dropped silently nor passed on."""
+    resampled = np.concatenate([np.arange(41.0), [np.nan, np.nan]])
+    assert percentile_interval(3.0, resampled) == Interval(3.0, 1.0, 39.0, 2)
+    assert percentile_interval(3.0, np.full(5, np.nan)) == Undefined("it has no value in any resample")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_interval_of_a_mean_equals_scipy_bootstrap(seed: int) -> None:
+    """On the same data SciPy's percentile interval is the same but for the noise of other draws."""
+    data = np.random.default_rng(seed).normal(size=200)
+    weights = draw_weights(np.zeros(200, np.int64), 10_000, seed=seed, stream=0)
+    ours = percentile_interval(float(data.mean()), weights @ data / 200)
+    theirs = stats.bootstrap(
+        (data,), np.mean, method="percentile", n_resamples=10_000, rng=np.random.default_rng(seed)
+    ).confidence_interval
+    assert isinstance(ours, Interval)
+    assert (ours.low, ours.high) == pytest.approx((theirs.low, theirs.high), abs=0.006)
+
+
+@given(st.data())
+def test_correlation_of_a_resample_equals_that_of_the_repeated_trials(data: st.DataObject) -> None:
+    """A weight is nothing but repetition; without variance there is no correlation."""
+    values = st.sampled_from([0.0, 0.25, 0.5, 0.9])
+    size = data.draw(st.integers(2, 8))
+    x, y = (np.array(data.draw(st.lists(values, min_size=size, max_size=size))) for _ in range(2))
+    weights = np.array(data.draw(st.lists(st.integers(0, 3), min_size=size, max_size=size)))
+    found = resample_correlation(x, y, weights[None, :].astype(float))[0]
+    repeated_x, repeated_y = np.repeat(x, weights), np.repeat(y, weights)
+    if not repeated_x.size or np.ptp(repeated_x) == 0 or np.ptp(repeated_y) == 0:
+        assert np.isnan(found)
+    else:
+        assert found == pytest.approx(np.corrcoef(repeated_x, repeated_y)[0, 1], abs=1e-9)
