@@ -95,6 +95,18 @@ def test_cswm_has_its_real_accuracy(instance: Path) -> None:
     assert (roll["n"], roll["n_rated"]) == (150, 94)
 
 
+def test_one_run_is_converted_as_among_all(
+    run: Run, instance: Path, shared_dir: Path, tmp_path: Path
+) -> None:
+    """Choosing a run by its training and readout gives the same file as splitting all."""
+    source = shared_dir / "data/physion-v1/models/cswm_physopt_results.csv"
+    output = tmp_path / "one.csv"
+    result = run("convert", "physopt", source, "--training", "same", "--readout", "B", "-o", output)
+    assert output.read_bytes() == (instance / "submissions/cswm-same-b/predictions.csv").read_bytes()
+    assert "drape: 72 of 150 trials are answered" in result.output
+    assert "rows about trials that Physion does not have: 527 " in result.output
+
+
 def test_the_six_submissions_validate(run: Run, instance: Path) -> None:
     """Each is valid as it stands in its folder."""
     run("validate", *(instance / "submissions" / name for name in RUNS))

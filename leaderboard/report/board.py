@@ -24,8 +24,8 @@ from leaderboard.report.terminal import (
 
 Scores = Mapping[str, Mapping[str, SubsetScores]]
 
-WIDE = 110
-MAX_NARROW_TITLE = 9
+WIDE = 118
+MAX_NARROW_TITLE = 8
 NARROW_NOTE = "A wider terminal shows easy and hard trials and pairs too."
 
 _LATEX_SPECIAL = {

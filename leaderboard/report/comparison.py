@@ -1,6 +1,6 @@
 """Two submissions side by side, for a terminal and as JSON."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 
 from rich.table import Table
@@ -24,20 +24,8 @@ from leaderboard.report.terminal import (
 )
 
 DECIMALS = 6
-COLUMNS = (
-    "accuracy",
-    "A, %",
-    "B, %",
-    "A-B, points",
-    "95 %",
-    "p",
-    "pairs A / B / =",
-    "human r A-B",
-    "95 %",
-    "kappa",
-)
-
-
+ACCURACY_COLUMNS = ("accuracy, %", "A", "B", "A-B", "95 %", "p", "pairs A / B / =")
+AGREEMENT_COLUMNS = ("agreement", "human r A-B", "95 %", "kappa of A and B")
 INTERVAL_NOTE = (
     "95 %: percentile bootstrap over pairs within scenarios, and over people where they are known;"
 )
@@ -63,8 +51,12 @@ def render_comparison(
         heading.append(f"{letter}  {names.get(slug, slug)}", "bold").append(f"  {slug}\n")
     heading.append(reference_banner(reference))
     notes = (Text(line, "dim") for line in _notes(comparison))
-    tables = (_scope_table(comparison, reference), _trial_table(comparison))
-    return render_tables([heading, "", *tables, *notes], terminal or Terminal(132))
+    tables = (
+        _scope_table(comparison, reference, ACCURACY_COLUMNS, _accuracy_cells),
+        _scope_table(comparison, reference, AGREEMENT_COLUMNS, _agreement_cells),
+        _trial_table(comparison),
+    )
+    return render_tables([heading, "", *tables, *notes], terminal or Terminal())
 
 
 def render_comparison_json(comparison: Comparison) -> str:
@@ -79,18 +71,22 @@ def render_comparison_json(comparison: Comparison) -> str:
     return canonical_json(data)
 
 
-def _scope_table(comparison: Comparison, reference: Reference) -> Table:
-    table = new_table(COLUMNS)
+def _scope_table(
+    comparison: Comparison,
+    reference: Reference,
+    columns: Sequence[str],
+    cells: Callable[[ScopeComparison], list[str]],
+) -> Table:
+    table = new_table(columns)
     titles = {s.id: f"  {s.title}" for s in reference.benchmark.scenarios}
     for scope in comparison.scopes:
         style = "bold" if scope.name == OVERALL else ""
-        table.add_row(titles.get(scope.name, scope.name), *_cells(scope), style=style)
+        table.add_row(titles.get(scope.name, scope.name), *cells(scope), style=style)
     return table
 
 
-def _cells(scope: ScopeComparison) -> list[str]:
+def _accuracy_cells(scope: ScopeComparison) -> list[str]:
     overlap, difference = scope.overlap, scope.difference
-    kappa = None if isinstance(scope.kappa, Undefined) else Score(value=scope.kappa)
     return [
         f"{100 * scope.accuracy_a:.1f}",
         f"{100 * scope.accuracy_b:.1f}",
@@ -98,9 +94,12 @@ def _cells(scope: ScopeComparison) -> list[str]:
         f"{100 * difference.low:+.1f} to {100 * difference.high:+.1f}",
         format_p(Score(value=scope.p)),
         f"{overlap.n_pairs_a} / {overlap.n_pairs_b} / {overlap.n_pairs_equal}",
-        *_interval_cells(scope.human_r_difference),
-        format_number(kappa),
     ]
+
+
+def _agreement_cells(scope: ScopeComparison) -> list[str]:
+    kappa = None if isinstance(scope.kappa, Undefined) else Score(value=scope.kappa)
+    return [*_interval_cells(scope.human_r_difference), format_number(kappa)]
 
 
 def _interval_cells(interval: Interval | Undefined) -> list[str]:

@@ -49,6 +49,7 @@ def render_result(
         _accuracy_table(result, reference, people),
     ]
     if reference.people is not None:
+        parts += [_subset_table(result, reference, people)] if result.coverage.properties else []
         parts += [_agreement_table(result, reference)]
     parts += [_probability_table(result, reference)]
     parts += [Text(line, "dim") for line in _legend(result, reference)]
@@ -89,20 +90,31 @@ def _score(scores: Scores, scope: str, subset: str, metric: str) -> Score | None
 
 
 def _accuracy_table(result: Result, reference: Reference, people: Scores) -> Table:
-    columns = ["accuracy, %", "trials", "model", "people", "gap", "p"]
-    subsets = ("easy", "hard") if reference.people is not None else ()
-    columns += [name for subset in subsets for name in (subset, "people")]
-    table = new_table(columns)
+    table = new_table(["accuracy, %", "trials", "model", "people", "gap", "p"])
     for scope, title in _scope_rows(result, reference):
-        model = _score(result.scores, scope, "all", "accuracy")
         p = _score(result.scores, scope, "all", "accuracy_p")
-        cells: list[str | Text] = [title, str(result.scores[scope]["all"].n), _mark_chance(model, p)]
+        cells: list[str | Text] = [str(result.scores[scope]["all"].n)]
+        cells += [_mark_chance(_score(result.scores, scope, "all", "accuracy"), p)]
         cells += [format_percent(_score(people, scope, "all", "accuracy"))]
         cells += [_mark_gap(_score(result.scores, scope, "all", "human_gap")), format_p(p)]
-        for subset in subsets:
-            cells += [format_percent(_score(result.scores, scope, subset, "accuracy"))]
-            cells += [format_percent(_score(people, scope, subset, "accuracy"))]
-        table.add_row(*cells, style="bold" if scope == OVERALL else "")
+        table.add_row(title, *cells, style="bold" if scope == OVERALL else "")
+    return table
+
+
+def _subset_table(result: Result, reference: Reference, people: Scores) -> Table:
+    """Tabulate easy and hard trials, which only overall and properties have."""
+    columns = [column for name in ("easy", "hard") for column in (f"{name} n", "model", "people", "r")]
+    table = new_table(["easy and hard, %", *columns])
+    for scope, title in _scope_rows(result, reference):
+        subsets = result.scores[scope]
+        if "easy" not in subsets:
+            continue
+        cells = []
+        for name in ("easy", "hard"):
+            cells += [str(subsets[name].n), format_percent(_score(result.scores, scope, name, "accuracy"))]
+            cells += [format_percent(_score(people, scope, name, "accuracy"))]
+            cells += [format_number(_score(result.scores, scope, name, "human_r"))]
+        table.add_row(title, *cells, style="bold" if scope == OVERALL else "")
     return table
 
 
@@ -141,8 +153,6 @@ def _agreement_table(result: Result, reference: Reference) -> Table:
     columns = {
         "r": ("human_r", "all", format_number),
         "partial r": ("human_r_partial", "all", format_number),
-        "r easy": ("human_r", "easy", format_number),
-        "r hard": ("human_r", "hard", format_number),
         "rmse": ("human_rmse", "all", format_number),
         "error kappa": ("error_consistency", "all", format_number),
         "answer kappa": ("cohen_kappa", "all", format_number),
@@ -159,13 +169,16 @@ def _probability_table(result: Result, reference: Reference) -> Table:
         "ECE": ("ece", "all", format_number),
         "YES, %": ("yes_rate", "all", format_percent),
     }
-    return _metric_table(result, reference, "pairs and probabilities", columns)
+    return _metric_table(result, reference, "pairs, probabilities", columns)
 
 
 def _legend(result: Result, reference: Reference) -> Iterator[str]:
     yield f"* above chance: exact one-sided p < {ALPHA}, not corrected for the number of rows."
     if reference.people is not None:
         yield f"▲ ▼ the model is {100 * LARGE_GAP:.0f} points or more above or below people, same trials."
+        both = sum(result.scores[name]["easy"].n_pairs_in_both or 0 for name in result.coverage.properties)
+        easy, hard = reference.benchmark.grading.easy, reference.benchmark.grading.hard
+        yield f"easy, hard: pairs with a member people get right above {easy}, below {hard}; both: {both}."
     reasons = dict.fromkeys(
         score.why
         for subsets in result.scores.values()

@@ -6,12 +6,14 @@ from io import StringIO
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console, RenderableType
+from rich.measure import measure_renderables
 from rich.table import Table
 from rich.text import Text
 
 from leaderboard.models import Score
 from leaderboard.reference import Reference
 
+MIN_NAME_WIDTH = 22
 ABSENT = "\N{EN DASH}"
 
 
@@ -24,7 +26,10 @@ class Terminal:
 
 
 def render_tables(parts: Iterable[RenderableType], terminal: Terminal) -> str:
-    """Render rich tables and texts, one after the other, without trailing blanks."""
+    """Render rich tables and texts, one after the other, without trailing blanks.
+
+    What cannot be made narrow enough is wider than the terminal: a number is never cut.
+    """
     console = Console(
         file=StringIO(),
         width=terminal.width,
@@ -37,8 +42,21 @@ def render_tables(parts: Iterable[RenderableType], terminal: Terminal) -> str:
     )
     with console.capture() as capture:
         for part in parts:
+            needed = _protect_numbers(part, console) if isinstance(part, Table) else 0
+            console.width = max(terminal.width, needed)
             console.print(part)
     return "\n".join(line.rstrip() for line in capture.get().splitlines()) + "\n"
+
+
+def _protect_numbers(table: Table, console: Console) -> int:
+    """Keep columns of numbers as wide as their cells, names up to a limit; return the width needed."""
+    needed = 1
+    for index, column in enumerate(table.columns):
+        cells = [column.header, *column.cells]
+        width = measure_renderables(console, console.options, cells).maximum
+        column.min_width = width if index else min(width, MIN_NAME_WIDTH)
+        needed += column.min_width + 2  # its padding, and the edge or gap beside it
+    return needed
 
 
 def new_table(columns: Iterable[str]) -> Table:

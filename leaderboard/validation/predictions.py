@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from leaderboard.problems import Problems
 from leaderboard.reference import Reference
-from leaderboard.reference.cells import quote
 from leaderboard.submission import Status
 from leaderboard.validation.probability import Fault, parse_probability
+from leaderboard.validation.quoting import quote_briefly
 from leaderboard.validation.table import Row, parse_rows
 from leaderboard.validation.text import decode_text
 
@@ -88,8 +88,8 @@ def _judge_ids(rows: Sequence[Row], reference: Reference, file: str, problems: P
 
 
 def _report_duplicate(row: Row, earlier: Row, file: str, problems: Problems) -> None:
-    values = f"{quote(earlier.probability)} there, {quote(row.probability)} here"
-    message = f"trial {quote(row.trial_id)} is on line {earlier.line} already ({values})"
+    values = f"{quote_briefly(earlier.probability)} there, {quote_briefly(row.probability)} here"
+    message = f"trial {quote_briefly(row.trial_id)} is on line {earlier.line} already ({values})"
     problems.add("duplicate-trial", message, file, line=row.line, hint="keep one of the two rows")
 
 
@@ -98,7 +98,7 @@ def _report_other_benchmark(
 ) -> None:
     title = reference.benchmark.title
     first = unknown[0]
-    message = f"none of the {len(unknown)} ids is a trial of {title}; the first is {quote(first.trial_id)}"
+    message = f"none of the {len(unknown)} ids is a trial of {title}; the first is {quote_briefly(first.trial_id)}"
     near = _suggest(reference).explain(first.trial_id)
     hint = near or f"ids of {title} look like {reference.trial_ids[0]}"
     problems.add("other-benchmark", message, file, line=first.line, hint=hint)
@@ -108,7 +108,7 @@ def _report_unknown(unknown: Sequence[Row], reference: Reference, file: str, pro
     suggestions = _suggest(reference)
     otherwise = f"its ids look like {reference.trial_ids[0]}"
     for number, row in enumerate(unknown):
-        given = quote(row.trial_id) if row.trial_id else "an empty id"
+        given = quote_briefly(row.trial_id) if row.trial_id else "an empty id"
         message = f"{given} is not a trial of {reference.benchmark.title}"
         hint = (suggestions.explain(row.trial_id) or otherwise) if number < MAX_SUGGESTIONS else ""
         problems.add("unknown-trial", message, file, line=row.line, hint=hint)
@@ -124,12 +124,12 @@ def _judge_value(row: Row, file: str, problems: Problems) -> tuple[float, bool] 
     """Return probability and whether it was given; None, and a problem, if the row contradicts itself."""
     if row.status not in ("", Status.ANSWERED, *UNANSWERED):
         hint = f"write {', '.join((Status.ANSWERED.value, *UNANSWERED))}, or leave it empty"
-        message = f"status {quote(row.status)} is unknown"
+        message = f"status {quote_briefly(row.status)} is unknown"
         problems.add("unknown-status", message, file, line=row.line, hint=hint)
         return None
     if row.status in UNANSWERED:
         if row.probability:
-            message = f"status {row.status} stands beside the probability {quote(row.probability)}"
+            message = f"status {row.status} stands beside the probability {quote_briefly(row.probability)}"
             hint = "leave the probability empty, or the status"
             problems.add("contradicting-status", message, file, line=row.line, hint=hint)
             return None
@@ -141,7 +141,7 @@ def _judge_value(row: Row, file: str, problems: Problems) -> tuple[float, bool] 
         return None
     value = parse_probability(row.probability)
     if isinstance(value, Fault):
-        message = f"probability {quote(row.probability)} {value.what}"
+        message = f"probability {quote_briefly(row.probability)} {value.what}"
         problems.add(value.code, message, file, line=row.line, hint=value.hint)
         return None
     return value, True

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from leaderboard.problems import Problems
-from leaderboard.reference.cells import FIRST_LINE, quote
+from leaderboard.reference.cells import FIRST_LINE
+from leaderboard.validation.quoting import quote_briefly
 
 HEADERS = (("trial_id", "probability"), ("trial_id", "probability", "status"))
 HEADER_RULE = "the first line must be trial_id,probability or trial_id,probability,status"
@@ -53,7 +54,7 @@ def parse_rows(text: str, known: Collection[str], file: str, problems: Problems)
         problems.add("empty-file", "is empty", file, hint=HEADER_RULE)
         return []
     parser = _Parser(known, file, problems)
-    width = parser.parse_header(lines[0])
+    width = 0 if parser.report_blank_top(lines) else parser.parse_header(lines[0])
     if not width:
         return []
     rows = parser.parse_lines(parser.cut_surplus(lines), width)
@@ -68,21 +69,31 @@ class _Parser:
     file: str
     problems: Problems
 
+    def report_blank_top(self, lines: Sequence[str]) -> bool:
+        """Report empty lines where the header should be; whether there are any."""
+        n_blank = next(number for number, line in enumerate(lines) if line.strip())
+        if n_blank:
+            hint = f"remove the empty line{'s' if n_blank > 1 else ''} above the header"
+            self._report("wrong-header", "the first line is empty", 1, hint)
+        return n_blank > 0
+
     def parse_header(self, line: str) -> int:
         """Count the columns, 0 if they are not understood; report a header that is not as it must be."""
         header = tuple(_split(line) or ())
         if header in HEADERS:
             return len(header)
         separator = _find_separator(line) if "," not in line else None
-        repeated = [name for name, count in Counter(header).items() if count > 1]
+        is_row = _count_torn(header, self.known) > 0
+        repeated = [name for name, count in Counter(header).items() if count > 1 and not is_row]
         if separator is not None:
             message = f"columns are separated by {separator}, not by a comma"
             self._report("wrong-separator", message, 1, "export it with commas")
         elif repeated:
-            self._report("duplicate-column", f"column {quote(repeated[0])} appears twice", 1, HEADER_RULE)
+            message = f"column {quote_briefly(repeated[0])} appears twice"
+            self._report("duplicate-column", message, 1, HEADER_RULE)
         else:
             hint = _hint_header(header, self.known)
-            self._report("wrong-header", f"the header is {quote(line)}", 1, hint)
+            self._report("wrong-header", f"the header is {quote_briefly(line)}", 1, hint)
         return len(header) if _tidy(header) in HEADERS else 0
 
     def cut_surplus(self, lines: Sequence[str]) -> Sequence[str]:
@@ -113,7 +124,7 @@ class _Parser:
     def _report_blank(self, run: Sequence[tuple[int, str]]) -> None:
         """Report a run of lines without content once."""
         first, last = run[0][0], run[-1][0]
-        what = "holds nothing but commas" if "," in run[0][1] else "is empty"
+        what = "is empty but for blanks or commas" if any(text for _, text in run) else "is empty"
         if first == last:
             self._report("blank-line", f"the line {what}", first, "remove it")
         else:
@@ -124,7 +135,7 @@ class _Parser:
         if cells is None:
             hint = 'quote a cell whole, as in "a,b", and double a quote inside it'
             fault = "do not close" if text.count('"') % 2 else "are misplaced"
-            self._report("malformed-quotes", f"the quotes {fault} in {quote(text)}", line, hint)
+            self._report("malformed-quotes", f"the quotes {fault} in {quote_briefly(text)}", line, hint)
         elif _tidy(cells) in HEADERS:
             hint = "keep one header; were two files joined?"
             self._report("repeated-header", "the header stands here again", line, hint)
@@ -153,6 +164,12 @@ def _find_separator(text: str) -> str | None:
     return next((name for mark, name in _SEPARATORS.items() if mark in text), None)
 
 
+def _count_torn(cells: Sequence[str], known: Collection[str]) -> int:
+    """Count the cells at a line's beginning that make up a trial's id, which may hold commas; 0 if none do."""
+    lengths = range(1, min(len(cells), _MAX_ID_CELLS))
+    return next((n for n in lengths if ",".join(cells[:n]) in known), 0)
+
+
 def _hint_header(header: Sequence[str], known: Collection[str]) -> str:
     """Say what is wrong with a header, as far as that can be told."""
     tidy = _tidy(header)
@@ -162,7 +179,7 @@ def _hint_header(header: Sequence[str], known: Collection[str]) -> str:
         return "leave out the first column, which numbers the rows (in pandas: index=False)"
     if sorted(tidy) in [sorted(allowed) for allowed in HEADERS]:
         return f"{HEADER_RULE}, in this order"
-    if any(cell in known for cell in header):
+    if _count_torn(header, known):
         return f"the rows begin at once, without a header: {HEADER_RULE}"
     return HEADER_RULE
 
@@ -172,8 +189,7 @@ def _hint_ragged(cells: Sequence[str], width: int, known: Collection[str]) -> st
     if len(cells) < width:
         separator = _find_separator(cells[0])
         return f"separate cells by a comma, not by {separator}" if separator else "give each column a cell"
-    lengths = range(1, min(len(cells), _MAX_ID_CELLS))
-    n_torn = next((n for n in lengths if ",".join(cells[:n]) in known), 1)
+    n_torn = _count_torn(cells, known) or 1
     hints = ['put the trial id in double quotes, since it holds commas: "..."'] if n_torn > 1 else []
     rest = [cell.strip() for cell in cells[n_torn:]]
     if len(rest) == width and rest[0].isdecimal() and rest[1].isdecimal():

@@ -15,10 +15,17 @@ _FORMATS = (
     (b"\x89HDF", "an HDF5 file"),
     (b"\x93NUMPY", "a NumPy array"),
     (b"\x80\x04", "a Python pickle"),
+    (b"\x80\x05", "a Python pickle"),
     (b"PAR1", "a Parquet file"),
     (b"version https://git-lfs", "a Git LFS pointer, not the file itself"),
 )
-_WIDE_BOMS = ((b"\xff\xfe", "UTF-16"), (b"\xfe\xff", "UTF-16"), (b"\x00\x00\xfe\xff", "UTF-32"))
+_WIDE_BOMS = (  # the longer before the shorter that it starts with
+    (b"\xff\xfe\x00\x00", "UTF-32"),
+    (b"\x00\x00\xfe\xff", "UTF-32"),
+    (b"\xff\xfe", "UTF-16"),
+    (b"\xfe\xff", "UTF-16"),
+)
+_UTF8_HINT = 'save it as UTF-8 (in a spreadsheet: "CSV UTF-8")'
 
 
 def decode_text(content: bytes, file: str, problems: Problems) -> str | None:
@@ -35,16 +42,15 @@ def decode_text(content: bytes, file: str, problems: Problems) -> str | None:
         return None
     body = content.removeprefix(BOM)
     if body.startswith(BOM):
-        hint = "save it again as UTF-8; one mark or none"
+        hint = "save it again as UTF-8 with one mark or none"
         problems.add("repeated-bom", "starts with two byte-order marks", file, line=1, hint=hint)
         return None
     nul = body.find(b"\0")
     if nul >= 0:
         line = body.count(b"\n", 0, nul) + 1
-        hint = "export it again"
-        problems.add(
-            "nul-byte", "holds a NUL byte; the file is damaged or binary", file, line=line, hint=hint
-        )
+        hint = "save it again as plain UTF-8 text; NULs come from a damaged copy or from UTF-16"
+        message = "holds a NUL byte; the file is damaged or binary"
+        problems.add("nul-byte", message, file, line=line, hint=hint)
         return None
     text = _decode_utf8(body, file, problems)
     return None if text is None or _report_line_ends(text, file, problems) else text
@@ -55,7 +61,7 @@ def _report_format(content: bytes, file: str, problems: Problems) -> bool:
         if content.startswith(start):
             shown = " ".join(f"{byte:02X}" for byte in start)
             message = f"is {encoding} (it starts with {shown}), not UTF-8"
-            problems.add("not-utf8", message, file, line=1, hint='save it as "CSV UTF-8"')
+            problems.add("not-utf8", message, file, line=1, hint=_UTF8_HINT)
             return True
     for start, what in _FORMATS:
         if content.startswith(start):
@@ -72,7 +78,7 @@ def _decode_utf8(body: bytes, file: str, problems: Problems) -> str | None:
         line = body.count(b"\n", 0, error.start) + 1
         position = error.start - (body.rfind(b"\n", 0, error.start) + 1) + 1
         message = f"byte {position} of the line, 0x{body[error.start]:02X}, is not UTF-8"
-        problems.add("not-utf8", message, file, line=line, hint='save the file as UTF-8 ("CSV UTF-8")')
+        problems.add("not-utf8", message, file, line=line, hint=_UTF8_HINT)
         return None
 
 

@@ -428,6 +428,31 @@ class TestReference:
         assert json.loads(run("reference", "check", "--json").output)["valid"] is True
 
 
+class TestConvert:
+    """``leaderboard convert physopt``; the runs themselves are tested on real data."""
+
+    @pytest.mark.parametrize(
+        ("flags", "message"),
+        [
+            ([], "say where to: -o FILE for one run, or --split-runs DIR for all"),
+            (["-o", "x.csv", "--split-runs", "runs"], "say where to"),
+            (["--split-runs", "runs", "--readout", "A"], "--split-runs writes all runs"),
+        ],
+    )
+    def test_options_that_contradict_are_wrong_usage(
+        self, run: Run, example: Path, flags: list[str], message: str
+    ) -> None:
+        """The message says which to give."""
+        assert message in run("convert", "physopt", example / "predictions.csv", *flags, exit_code=2).output
+
+    def test_another_file_is_refused_by_its_header(self, run: Run, example: Path, tmp_path: Path) -> None:
+        """Nothing is written."""
+        output = tmp_path / "out.csv"
+        result = run("convert", "physopt", example / "predictions.csv", "-o", output, exit_code=1)
+        assert "error: " in result.output
+        assert not output.exists()
+
+
 def test_baselines_are_written_anew_with_their_date(run: Run, root: Path) -> None:
     """A second run changes nothing; the date of the first stays."""
     run("baselines", "--date", "2026-11-21")

@@ -65,6 +65,11 @@ def test_good_rows_are_kept_beside_bad_lines() -> None:
         ("probability,trial_id\n", "wrong-header", "in this order"),
         (",trial_id,probability\n", "wrong-header", "index=False"),
         ("b/2,0.5\n", "wrong-header", "without a header"),
+        ("a/x,y/1,0.5\n", "wrong-header", "without a header"),
+        ("a/x,y/1,a/x\n", "wrong-header", "without a header"),
+        ("\n\ntrial_id,probability\nb/2,0.5\n", "wrong-header", "remove the empty lines above the header"),
+        (" \ntrial_id,probability\n", "wrong-header", "remove the empty line above the header"),
+        ("id;prob\n", "wrong-separator", "export it with commas"),
         ('"trial_id,probability\n', "wrong-header", "the first line must be"),
         ("trial_id,probability", "no-rows", "give one row per trial"),
     ],
@@ -125,3 +130,45 @@ def test_cells_are_those_of_the_csv_module(cells: list[tuple[str, str]]) -> None
     rows, found = parse(buffer.getvalue())
     assert [(row.trial_id, row.probability) for row in rows] == cells
     assert found == []
+
+
+def test_a_file_without_header_whose_ids_are_torn_repeats_no_column() -> None:
+    """Equal numbers inside an unquoted id are not two columns of the same name."""
+    problems = Problems()
+    parse_rows("a=0.3,0.5,0.3/1,0.5\n", ("a=0.3,0.5,0.3/1",), "f", problems)
+    assert [(p.code, p.message) for p in problems] == [
+        ("wrong-header", "the header is 'a=0.3,0.5,0.3/1,0.5'")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ([""], "the line is empty"),
+        ([" "], "the line is empty but for blanks or commas"),
+        ([","], "the line is empty but for blanks or commas"),
+        (["", ""], "each of lines 2 to 3 is empty"),
+        ([",", "", "  "], "each of lines 2 to 4 is empty but for blanks or commas"),
+    ],
+)
+def test_blank_lines_are_described_as_they_are(lines: list[str], message: str) -> None:
+    """One problem for a run of them; its words are true of every line of the run."""
+    problems = Problems()
+    parse_rows("\n".join(["trial_id,probability", *lines, "b/2,1"]), KNOWN, "f", problems)
+    assert [(p.code, p.line, p.message) for p in problems] == [("blank-line", 2, message)]
+
+
+LINES = st.lists(
+    st.sampled_from(['"a/x,y/1",0.5', "b/2,0.5", "a/x,y/1,0,5", "", ",", '"', "trial_id,probability", "b/2", '"b/2"x,1'])
+)
+
+
+@given(LINES, st.sampled_from(["\n", "\r\n"]))
+def test_every_line_is_a_row_or_is_reported(lines: list[str], line_end: str) -> None:
+    """No line gets lost: each is among the rows, or has a problem at it or at the start of its blank run."""
+    rows, found = parse(line_end.join(["trial_id,probability", *lines, "b/2,1"]) + line_end)
+    accounted = {row.line for row in rows} | {line for _, line in found}
+    for number, line in enumerate(lines, 2):
+        is_inside_run = line in ("", ",") and lines[number - 3 : number - 2] in ([""], [","])
+        assert number in accounted or is_inside_run
+    assert len({row.line for row in rows}) == len(rows)
