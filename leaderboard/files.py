@@ -80,7 +80,10 @@ def write_atomic(path: Path, content: bytes) -> None:
     """
     import tempfile  # only what writes pays for it
 
-    descriptor, name = tempfile.mkstemp(prefix=".tmp-", dir=path.parent)
+    try:
+        descriptor, name = tempfile.mkstemp(prefix=".tmp-", dir=path.parent)
+    except OSError as error:  # name the file that was asked for, not the temporary one
+        raise OSError(error.errno, error.strerror, str(path)) from error
     temporary = Path(name)
     try:
         with os.fdopen(descriptor, "wb") as stream:

@@ -24,13 +24,18 @@ class Visit:
         """Note requests that leave the site or fail, errors, and anything on the console."""
         self.page.on("request", self._check_request)
         self.page.on("response", self._check_response)
-        self.page.on("requestfailed", lambda request: self.complaints.append(f"failed: {request.url}"))
+        self.page.on("requestfailed", self._check_failure)
         self.page.on("console", lambda message: self.complaints.append(f"console: {message.text}"))
         self.page.on("pageerror", lambda error: self.complaints.append(f"error: {error}"))
 
     def _check_request(self, request: Request) -> None:
         if not request.url.startswith(f"{self.origin}/"):
             self.complaints.append(f"leaves the site: {request.url}")
+
+    def _check_failure(self, request: Request) -> None:
+        # Leaving a page gives up what it still loads, such as its icon: that is no fault of the page.
+        if request.failure != "net::ERR_ABORTED":
+            self.complaints.append(f"failed: {request.url} ({request.failure})")
 
     def _check_response(self, response: Response) -> None:
         if response.status >= FIRST_ERROR:

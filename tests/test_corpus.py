@@ -4,6 +4,7 @@ import datetime as dt
 import os
 import shutil
 import tomllib
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import pytest
 
 from builders import build_reference
 from leaderboard.problems import CODES, Severity
-from leaderboard.report.problems import render_problems, render_verdict
+from leaderboard.report.problems import MAX_SHOWN, render_problems, render_verdict
 from leaderboard.submission import read_submission
 from leaderboard.validation import Validation, validate
 
@@ -19,6 +20,8 @@ CORPUS = Path(__file__).parent / "corpus"
 VALID = CORPUS / "valid" / "submission"
 EXAMPLES = sorted(path.parent for path in CORPUS.glob("*/*/*/expected.txt"))
 TODAY = dt.date(2026, 6, 1)
+
+MAX_MESSAGE = 400
 
 # Found where a folder is made, not where it is judged; tests of submitting show it.
 ELSEWHERE = {"slug-taken"}
@@ -34,6 +37,8 @@ class Recipe:
     folders: tuple[str, ...] = ()
     pipes: tuple[str, ...] = ()
     sizes: dict[str, int] = field(default_factory=dict)
+    replace: dict[str, dict[str, str]] = field(default_factory=dict)
+    append: dict[str, dict[str, str | int]] = field(default_factory=dict)
     pairs_per_scenario: int = 4
 
 
@@ -47,6 +52,19 @@ def make_folder(example: Path, name: str, folder: Path, recipe: Recipe) -> None:
     shutil.copytree(VALID, folder)
     if (example / name).is_dir():
         shutil.copytree(example / name, folder, dirs_exist_ok=True)
+    put_entries(folder, recipe)
+    for entry, changes in recipe.replace.items():
+        replace_texts(folder / entry, changes)
+    for entry, addition in recipe.append.items():
+        with (folder / entry).open("ab") as stream:
+            stream.write(str(addition["text"]).encode() * int(addition["times"]))
+    for entry, size in recipe.sizes.items():
+        with (folder / entry).open("ab") as stream:
+            stream.truncate(size)
+
+
+def put_entries(folder: Path, recipe: Recipe) -> None:
+    """Take away files, and put links, folders and pipes in the place of others."""
     for entry in (*recipe.remove, *recipe.symlinks, *recipe.folders, *recipe.pipes):
         (folder / entry).unlink(missing_ok=True)
     for entry in recipe.symlinks:
@@ -55,9 +73,15 @@ def make_folder(example: Path, name: str, folder: Path, recipe: Recipe) -> None:
         (folder / entry).mkdir()
     for entry in recipe.pipes:
         os.mkfifo(folder / entry)
-    for entry, size in recipe.sizes.items():
-        with (folder / entry).open("ab") as stream:
-            stream.truncate(size)
+
+
+def replace_texts(file: Path, changes: dict[str, str]) -> None:
+    """Put one text in the place of another; it must be there exactly once."""
+    content = file.read_bytes()
+    for old, new in changes.items():
+        assert content.count(old.encode()) == 1, f"{old!r} is not once in {file}"
+        content = content.replace(old.encode(), new.encode())
+    file.write_bytes(content)
 
 
 def judge(example: Path, tmp_path: Path) -> tuple[Validation, str]:
@@ -89,8 +113,25 @@ def test_example_gets_the_expected_text(example: Path, tmp_path: Path) -> None:
     if os.environ.get("ACCEPT"):
         (example / "expected.txt").write_text(text)
     assert text == (example / "expected.txt").read_text()
-    assert example.parent.name in {problem.code for problem in validation.problems}
-    assert (validation.submission is None) == (example.parent.parent.name == "invalid")
+    codes = [problem.code for problem in validation.problems]
+    assert example.parent.name in codes
+    if example.parent.parent.name == "invalid":
+        assert validation.submission is None
+    else:
+        assert validation.submission is not None
+        assert codes == [example.parent.name]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=name_example)
+def test_messages_are_short_and_say_what_to_do(example: Path, tmp_path: Path) -> None:
+    """Each is at most 400 printable characters, and those that are shown come with a hint."""
+    validation, text = judge(example, tmp_path)
+    assert text.replace("\n", "").isprintable()
+    shown: Counter[str] = Counter()
+    for problem in validation.problems:
+        assert 1 <= len(problem.message) <= MAX_MESSAGE
+        shown[problem.code] += 1
+        assert problem.hint or shown[problem.code] > MAX_SHOWN
 
 
 def test_the_valid_submission_is_valid(tmp_path: Path) -> None:
@@ -113,3 +154,17 @@ def test_every_code_has_an_example(folder: str, severity: Severity) -> None:
         if kind.severity is severity and not code.startswith(("reference-", "import-"))
     }
     assert {path.name for path in (CORPUS / folder).iterdir()} == codes - ELSEWHERE
+    for code in codes - ELSEWHERE:
+        assert list((CORPUS / folder / code).glob("*/expected.txt"))
+
+
+def test_only_what_submitting_finds_has_no_example() -> None:
+    """The exceptions are codes of the catalogue, refuse, and have no folder."""
+    assert {"slug-taken"} == ELSEWHERE
+    assert CODES["slug-taken"].severity is Severity.ERROR
+    assert not (CORPUS / "invalid" / "slug-taken").exists()
+
+
+def test_every_folder_is_an_example() -> None:
+    """None is left out of the tests because its expected text is missing."""
+    assert sorted(CORPUS.glob("[iw]*/*/*")) == EXAMPLES

@@ -35,6 +35,14 @@ def test_write_atomic_keeps_the_old_file_when_the_disk_fails(
     assert [path.name for path in tmp_path.iterdir()] == ["result.json"]
 
 
+def test_a_file_that_cannot_be_written_is_named_as_asked_for(tmp_path: Path) -> None:
+    """The error speaks of the target, not of a temporary file that nobody knows."""
+    target = tmp_path / "nowhere/result.json"
+    with pytest.raises(FileNotFoundError) as caught:
+        write_atomic(target, b"new")
+    assert caught.value.filename == str(target)
+
+
 def test_write_folder_makes_all_files_or_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A failure in the middle leaves no folder behind."""
     contents = {"a.txt": b"1", "b/c.txt": b"2"}

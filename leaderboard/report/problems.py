@@ -101,8 +101,12 @@ def _count_rest(shown: Counter[str]) -> Iterable[str]:
 
 
 def _escape_data(text: str) -> str:
-    """Escape as GitHub's workflow commands ask; what follows cannot start a command of its own."""
-    return _encodable(text).replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    """Escape as GitHub's workflow commands ask, and what cannot be printed as in text.
+
+    What follows cannot start a command of its own, nor steer the terminal of whoever reads the log.
+    """
+    plain = "".join(c if c.isprintable() or c in "\r\n" else ascii(c)[1:-1] for c in text)
+    return plain.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
 
 def _escape_property(text: str) -> str:

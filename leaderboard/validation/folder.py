@@ -3,8 +3,8 @@
 from leaderboard.ids import SLUG_RULE, find_nearest, is_slug
 from leaderboard.instance import PREDICTIONS_FILE, RESULT_FILE, SUBMISSION_FILE
 from leaderboard.problems import Problems
-from leaderboard.reference.cells import quote
 from leaderboard.submission import SIZE_LIMITS, RawFile, RawSubmission
+from leaderboard.validation.quoting import quote_briefly
 
 REQUIRED = (SUBMISSION_FILE, PREDICTIONS_FILE)
 ALLOWED = (*REQUIRED, RESULT_FILE)
@@ -28,7 +28,7 @@ def judge_folder(raw: RawSubmission, problems: Problems) -> None:
 
 def _judge_slug(raw: RawSubmission, problems: Problems) -> None:
     if raw.slug is not None and not is_slug(raw.slug):
-        message = f"{quote(raw.slug)} cannot name a submission"
+        message = f"{quote_briefly(raw.slug)} cannot name a submission"
         problems.add(
             "slug-malformed", message, _shown(raw.location), hint=f"name the folder with {SLUG_RULE}"
         )
@@ -38,14 +38,14 @@ def _report_missing(raw: RawSubmission, name: str, problems: Problems) -> None:
     hint = "a submission is a folder with submission.toml and predictions.csv"
     near = find_nearest(name, (file.name for file in raw.files if file.name not in ALLOWED))
     if near:
-        hint = f"is it {quote(near)}? Rename it to {name}"
+        hint = f"is it {quote_briefly(near)}? Rename it to {name}"
     problems.add("file-missing", f"there is no {name}", raw.location, hint=hint)
 
 
 def _report_unexpected(raw: RawSubmission, file: RawFile, problems: Problems) -> None:
     near = find_nearest(file.name, ALLOWED)
     hint = f"did you mean {near}?" if near else f"keep only {', '.join(ALLOWED)} here"
-    message = f"{quote(file.name)} does not belong in a submission"
+    message = f"{quote_briefly(file.name)} does not belong in a submission"
     problems.add("unexpected-file", message, _shown(raw.path_of(file.name)), hint=hint)
 
 
@@ -57,11 +57,12 @@ def _report_kind(raw: RawSubmission, file: RawFile, problems: Problems) -> None:
 
 def _report_size(raw: RawSubmission, file: RawFile, problems: Problems) -> None:
     limit = SIZE_LIMITS[file.name]
-    hint = (
-        "a row per trial is all that is needed: is this raw output?" if file.name == PREDICTIONS_FILE else ""
-    )
+    hint = {
+        PREDICTIONS_FILE: "a row per trial is all that is needed: is this raw output?",
+        RESULT_FILE: f"remove it, and make it with: leaderboard grade {_shown(raw.location)}",
+    }.get(file.name, "shorten it")
     message = f"is {file.size:,} bytes; the limit is {limit:,}"
-    problems.add("file-too-large", message, raw.path_of(file.name), hint=hint or "shorten it")
+    problems.add("file-too-large", message, raw.path_of(file.name), hint=hint)
 
 
 def _shown(path: str) -> str:

@@ -11,14 +11,14 @@ from pydantic_core import ErrorDetails
 from leaderboard.ids import find_nearest
 from leaderboard.models import Benchmark, Metadata, Protocol
 from leaderboard.problems import Problems
-from leaderboard.reference.cells import quote
+from leaderboard.validation.quoting import quote_briefly
 from leaderboard.validation.text import decode_text
 
 _EXPECTED = {
     "string_type": "a text in double quotes",
     "int_type": "a whole number",
     "date_type": "a date such as 2026-11-21, without quotes",
-    "model_type": "a section with keys of its own, such as [links]",
+    "model_type": "[{name}] on a line of its own, and its keys below",
 }
 _FOUND = {
     str: "a text",
@@ -36,14 +36,36 @@ _MAX_SHOWN_NUMBER = 10**15
 _MAX_DOTS = (
     1000  # in a line: no valid one has more, and the parser takes seconds for a key a.a.a. ... of thousands
 )
-_TOML_PLACE = re.compile(r" \(at line ([0-9]+), column ([0-9]+)\)$")
+_TOML_PLACE = re.compile(r" \(at (?:line ([0-9]+), column [0-9]+|end of document)\)$")
+_SECRET = re.compile("[:/][^/@]+@")  # as in https://user:password@host
+_NFC_HINT = "type the accented letters anew, each as one character"
 _TOML_HINT = "see docs/submitting.md for an example of the whole file"
+_TOML_TEXTS = 'texts stand in double quotes, key = "text"; dates read 2026-11-21'
+_NEITHER = ("a line is neither a section nor a key with a value", 'write key = "text"')
+_CONTROL = ("a control character stands in the file", "remove it, or type the line anew")
+_OPEN = ("a bracket does not close", "close it with ] or }")
 _TOML_FAULTS = {  # how the parser's message starts: our words, and what to do
     "Invalid value": ("a value cannot be read", 'texts stand in double quotes: key = "text"'),
-    "Expected '=' after a key": ("a line is neither a section nor a key with a value", 'write key = "text"'),
+    "Invalid date": ("a date does not exist", "write a date such as 2026-11-21"),
+    "Expected newline or end of document": ("something follows where a value has ended", _TOML_TEXTS),
+    "Unescaped '\\'": (
+        "a backslash stands alone in a text",
+        r"write it twice, \\, or put the text in single quotes",
+    ),
+    "Expected '=' after a key": _NEITHER,
+    "Invalid statement": _NEITHER,
+    "Expected ']' at the end of a table": ("a section's name does not end", "close it with ]"),
+    "Invalid initial character for a key": (
+        "a key or section has no plain name",
+        'write [section] or key = "text"',
+    ),
+    "Unclosed": _OPEN,
+    "Duplicate inline table key": ("a key is given twice", "give each key once"),
     "Cannot overwrite a value": ("a key is given twice", "give each key once"),
     "Cannot declare": ("a section is given twice", "give each section once"),
     "Illegal character '\\n'": ("a text does not end on its line", "close it with a double quote"),
+    "Illegal character": _CONTROL,
+    "Found invalid character": _CONTROL,
     "Unterminated string": ("a text does not end", "close it with a double quote"),
     "Exceeds the limit": ("a number has thousands of digits", "write a number that can be meant"),
 }
@@ -82,7 +104,7 @@ def _parse_toml(text: str, file: str, problems: Problems) -> dict[str, Any] | No
         problems.add("toml-syntax", "is nested too deeply", file, hint=hint)
     except ValueError as error:  # a TOMLDecodeError, or Python's refusal of numbers of thousands of digits
         place = _TOML_PLACE.search(str(error))
-        line = int(place[1]) if place else None
+        line = int(place[1]) if place and place[1] else None
         what, hint = _describe_syntax(_TOML_PLACE.sub("", str(error)))
         problems.add("toml-syntax", f"is not TOML: {what}", file, line=line, hint=hint)
     return None
@@ -101,7 +123,7 @@ def _locate_keys(text: str) -> dict[tuple[str, ...], int]:
     lines: dict[tuple[str, ...], int] = {}
     section: tuple[str, ...] = ()
     for number, line in enumerate(text.split("\n"), 1):
-        if head := re.match(r"\s*\[([^\[\]]+)\]", line):
+        if head := re.match(r"\s*\[\[?([^\[\]]+)\]", line):
             section = tuple(part.strip().strip("\"'") for part in head[1].split("."))
             lines.setdefault(section, number)
         elif key := re.match(r"""\s*["']?([^\s"'=#]+)["']?\s*=""", line):
@@ -130,7 +152,8 @@ def _describe_fault(details: ErrorDetails, path: tuple[str, ...]) -> tuple[str, 
     if kind == "literal_error" and not isinstance(found, str):
         return "wrong-type", f"{name} is {_name_type(found)}", f"write one of {details['ctx']['expected']}"
     if kind in _EXPECTED:
-        return "wrong-type", f"{name} is {_name_type(found)}", f"write {_EXPECTED[kind]}"
+        hint = f"write {_EXPECTED[kind].format(name=name)}"
+        return "wrong-type", f"{name} is {_name_type(found)}", hint
     if kind == "value_error":
         return _describe_refusal(name, path, str(details["ctx"]["error"]), found)
     return _describe_value(details, path)
@@ -153,20 +176,45 @@ def _describe_value(details: ErrorDetails, path: tuple[str, ...]) -> tuple[str, 
 def _describe_refusal(name: str, path: tuple[str, ...], reason: str, found: object) -> tuple[str, str, str]:
     """Describe what the models' own rules refuse."""
     if path[0] == "links":
-        hint = "write the whole link, starting with https://"
-        return "link-refused", f"{name} {_show(found)} {reason}", hint
+        return _describe_link(name, reason, found)
+    if reason.startswith(("has U+0009 ", "has U+000A ")):
+        return "forbidden-character", f"{name} {reason}", "write it on one line, without tabs"
     if reason.startswith("has U+"):
         return "forbidden-character", f"{name} {reason}", "remove it: it is invisible or turns text around"
-    return "malformed-value", f"{name} is {_show(found)}; it {reason}", "write it as it should be shown"
+    is_blank = reason.startswith("must not be empty")
+    hint = "write the text without blanks around it" if is_blank else _NFC_HINT
+    return "malformed-value", f"{name} is {_show(found)}; it {reason}", hint
+
+
+def _describe_link(name: str, reason: str, found: object) -> tuple[str, str, str]:
+    """Describe a refused link; one that may hold a password is not repeated."""
+    shown = "" if _SECRET.search(str(found)) else f" {_show(found)}"
+    hint = "write the whole link, starting with https://"
+    if "password" in reason:
+        hint = "take them out of the link, and change the password if it was real"
+    elif not found:
+        hint = "write the whole link, or leave the key out"
+    elif "%XX" in reason:
+        hint = "copy the link from the browser's address line: a blank is %20 there"
+    return "link-refused", f"{name}{shown} {reason}", hint
 
 
 def _hint_key(path: tuple[str, ...]) -> str:
     fields: Any = Metadata
     for part in path[:-1]:
         fields = fields.model_fields[part].annotation
+    owner = _find_section(path[-1])
+    if owner:
+        return f"it belongs in the section [{owner}]"
     near = find_nearest(path[-1], fields.model_fields)
     known = ", ".join(fields.model_fields)
     return f"did you mean {near}?" if near else f"known here: {known}"
+
+
+def _find_section(key: str) -> str | None:
+    """Find the section that has a key of this name."""
+    sections: Any = {name: field.annotation for name, field in Metadata.model_fields.items()}
+    return next((name for name, section in sections.items() if key in section.model_fields), None)
 
 
 def _hint_pattern(path: tuple[str, ...]) -> str:
@@ -209,7 +257,7 @@ def _judge_track(
         for track in benchmark.tracks
     )
     message = f"no track takes training {protocol.training} with testing {protocol.testing}"
-    problems.add("no-track", message, file, line=lines.get(("protocol",)), hint=f"there are {tracks}")
+    problems.add("no-track", message, file, line=lines.get(("protocol",)), hint=f"the tracks are {tracks}")
 
 
 def _section(data: dict[str, Any], name: str) -> dict[str, Any]:
@@ -219,16 +267,15 @@ def _section(data: dict[str, Any], name: str) -> dict[str, Any]:
 
 def _dotted(path: tuple[str, ...]) -> str:
     text = ".".join(path)
-    return text if text.isascii() and text.isprintable() and len(text) <= 80 else quote(text)  # noqa: PLR2004
+    return text if text.isascii() and text.isprintable() and len(text) <= 80 else quote_briefly(text)  # noqa: PLR2004
 
 
 def _show(value: object) -> str:
-    """Show a text or whole number as it is, and of anything else what kind of value it is."""
+    """Show a text or a whole number; values of other kinds are refused for their kind."""
     if isinstance(value, str):
-        return quote(value)
-    if isinstance(value, int) and not isinstance(value, bool) and abs(value) < _MAX_SHOWN_NUMBER:
-        return str(value)
-    return _name_type(value)
+        return quote_briefly(value)
+    is_short = isinstance(value, int) and abs(value) < _MAX_SHOWN_NUMBER
+    return str(value) if is_short else "a whole number of more than 15 digits"
 
 
 def _name_type(value: object) -> str:

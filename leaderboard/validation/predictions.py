@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 MAX_SUGGESTIONS = 20
 MAX_LISTED = 3
+_MAX_LIST_LENGTH = 250
 
 UNANSWERED = tuple(status.value for status in Status if status is not Status.ANSWERED)
 
@@ -98,7 +99,9 @@ def _report_other_benchmark(
 ) -> None:
     title = reference.benchmark.title
     first = unknown[0]
-    message = f"none of the {len(unknown)} ids is a trial of {title}; the first is {quote_briefly(first.trial_id)}"
+    message = (
+        f"none of the {len(unknown)} ids is a trial of {title}; the first is {quote_briefly(first.trial_id)}"
+    )
     near = _suggest(reference).explain(first.trial_id)
     hint = near or f"ids of {title} look like {reference.trial_ids[0]}"
     problems.add("other-benchmark", message, file, line=first.line, hint=hint)
@@ -126,6 +129,8 @@ def _judge_value(row: Row, file: str, problems: Problems) -> tuple[float, bool] 
         hint = f"write {', '.join((Status.ANSWERED.value, *UNANSWERED))}, or leave it empty"
         message = f"status {quote_briefly(row.status)} is unknown"
         problems.add("unknown-status", message, file, line=row.line, hint=hint)
+        if row.probability:
+            _judge_probability(row, file, problems)
         return None
     if row.status in UNANSWERED:
         if row.probability:
@@ -139,6 +144,10 @@ def _judge_value(row: Row, file: str, problems: Problems) -> tuple[float, bool] 
         hint = f"give a number, or say why there is none in the column status: {', '.join(UNANSWERED)}"
         problems.add("probability-missing", message, file, line=row.line, hint=hint)
         return None
+    return _judge_probability(row, file, problems)
+
+
+def _judge_probability(row: Row, file: str, problems: Problems) -> tuple[float, bool] | None:
     value = parse_probability(row.probability)
     if isinstance(value, Fault):
         message = f"probability {quote_briefly(row.probability)} {value.what}"
@@ -153,13 +162,20 @@ def _judge_coverage(covered: NDArray[np.bool_], reference: Reference, file: str,
         mask = reference.in_scenario(scenario.id)
         missing = np.flatnonzero(mask & ~covered)
         if missing.size and missing.size < mask.sum():
-            shown = [reference.trial_ids[index] for index in missing[:MAX_LISTED]]
-            rest = f" and {missing.size - MAX_LISTED} more" if missing.size > MAX_LISTED else ""
-            message = (
-                f"{missing.size} of the {mask.sum()} trials of {scenario.id} are missing: "
-                f"{', '.join(shown)}{rest}"
-            )
+            listed = _list_briefly([reference.trial_ids[index] for index in missing])
+            message = f"{missing.size} of the {mask.sum()} trials of {scenario.id} are missing: {listed}"
             problems.add("missing-trials", message, file, hint=_hint_missing(missing, mask, reference))
+
+
+def _list_briefly(trial_ids: Sequence[str]) -> str:
+    """List the first ids, as far as a message has room, and count the others."""
+    shown = [trial_ids[0]]
+    for trial_id in trial_ids[1:MAX_LISTED]:
+        if len(", ".join((*shown, trial_id))) > _MAX_LIST_LENGTH:
+            break
+        shown.append(trial_id)
+    n_others = len(trial_ids) - len(shown)
+    return f"{', '.join(shown)}{f' and {n_others} more' if n_others else ''}"
 
 
 def _hint_missing(missing: NDArray[np.intp], mask: NDArray[np.bool_], reference: Reference) -> str:

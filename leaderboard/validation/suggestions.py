@@ -4,7 +4,7 @@ import re
 import unicodedata
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 from leaderboard.ids import find_nearest
@@ -35,13 +35,13 @@ class Suggestions:
 
     @cached_property
     def _folded(self) -> dict[str, str]:
-        return {trial_id.casefold(): trial_id for trial_id in self._trial_ids}
+        """The ids that stay apart without capitals, by that form."""
+        return _key_uniquely(self._trial_ids, str.casefold)
 
     @cached_property
     def _unpadded(self) -> dict[str, str]:
         """The ids that stay apart without leading zeros, by that form."""
-        forms = Counter(map(_strip_zeros, self._trial_ids))
-        return {form: t for t in self._trial_ids if forms[form := _strip_zeros(t)] == 1}
+        return _key_uniquely(self._trial_ids, _strip_zeros)
 
     @cached_property
     def _forward(self) -> list[str]:
@@ -89,6 +89,13 @@ class Suggestions:
             near = ordered[max(place - NEIGHBOURS, 0) : place + NEIGHBOURS]
             candidates.update(dict.fromkeys(trial_id[::turn] for trial_id in near))
         return list(candidates)
+
+
+def _key_uniquely(trial_ids: Sequence[str], form: Callable[[str], str]) -> dict[str, str]:
+    """Key the ids by a form of them, leaving out those that share theirs: which was meant is not guessed."""
+    forms = [form(trial_id) for trial_id in trial_ids]
+    counts = Counter(forms)
+    return {key: trial_id for key, trial_id in zip(forms, trial_ids, strict=True) if counts[key] == 1}
 
 
 def _strip_zeros(text: str) -> str:

@@ -165,7 +165,7 @@ def _find_separator(text: str) -> str | None:
 
 
 def _count_torn(cells: Sequence[str], known: Collection[str]) -> int:
-    """Count the cells at a line's beginning that make up a trial's id, which may hold commas; 0 if none do."""
+    """Count the cells at a line's beginning that make up a trial's id with its commas; 0 if none do."""
     lengths = range(1, min(len(cells), _MAX_ID_CELLS))
     return next((n for n in lengths if ",".join(cells[:n]) in known), 0)
 
@@ -188,7 +188,10 @@ def _hint_ragged(cells: Sequence[str], width: int, known: Collection[str]) -> st
     """Say why a row has too few or too many cells: another separator, an id with commas, a decimal comma."""
     if len(cells) < width:
         separator = _find_separator(cells[0])
-        return f"separate cells by a comma, not by {separator}" if separator else "give each column a cell"
+        if separator:
+            return f"separate cells by a comma, not by {separator}"
+        lacks_status = len(cells) == width - 1 == len(HEADERS[0])
+        return f"give each column a cell{': an empty status too has its comma' if lacks_status else ''}"
     n_torn = _count_torn(cells, known) or 1
     hints = ['put the trial id in double quotes, since it holds commas: "..."'] if n_torn > 1 else []
     rest = [cell.strip() for cell in cells[n_torn:]]

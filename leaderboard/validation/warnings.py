@@ -31,7 +31,8 @@ def find_suspicions(
     covered = submission.covered & submission.answered
     probabilities = submission.probabilities[covered]
     if probabilities.size and np.ptp(probabilities) == 0:
-        message = f"all {probabilities.size} probabilities are {probabilities[0]:g}"
+        constant = repr(float(probabilities[0])).removesuffix(".0")
+        message = f"all {probabilities.size} probabilities are {constant}"
         problems.add("constant-probabilities", message, file, hint="ranks and correlations say nothing then")
     if probabilities.size and np.array_equal(probabilities, reference.labels[covered]):
         message = "the probabilities equal the labels"

@@ -1,6 +1,8 @@
 """What an unknown id was meant to be."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from builders import build_reference
 from leaderboard.validation.suggestions import Suggestions
@@ -58,3 +60,55 @@ def test_lost_leading_zeros_are_recognised() -> None:
     assert SUGGESTIONS.explain("alpha_one-copy0/set=a,b/2") == (
         "write alpha_one-copy0/set=a,b/0002: leading zeros matter"
     )
+
+
+ALPHABET = "abcdefghijklmnopqrstuvwxyz0123456789=,/-_ \u0430\u200b"
+
+
+@given(
+    st.sampled_from(IDS),
+    st.integers(0, 30),
+    st.sampled_from(ALPHABET),
+    st.sampled_from(["insert", "replace"]),
+)
+def test_one_slip_is_always_explained(trial_id: str, place: int, character: str, how: str) -> None:
+    """Whichever character is put in or changed, the hint names a trial or says what to take away."""
+    place = min(place, len(trial_id) - 1)
+    wrong = trial_id[:place] + character + trial_id[place + (how == "replace") :]
+    if wrong in IDS:
+        return
+    hint = SUGGESTIONS.explain(wrong)
+    assert hint == "remove the blanks around it" or any(known in hint for known in IDS)
+    if not character.isascii():
+        assert f"character {place + 1} is U+{ord(character):04X}" in hint
+        assert "ids are plain ASCII" in hint
+
+
+@given(st.text(max_size=300))
+def test_any_text_has_a_printable_explanation_or_none(text: str) -> None:
+    """Nothing of what was written comes back unescaped; only real ids are named."""
+    hint = SUGGESTIONS.explain(text)
+    assert hint.isprintable()
+    assert hint.isascii()
+    assert len(hint) <= 400
+
+
+def test_an_enormous_id_is_no_harder_than_a_long_one() -> None:
+    """Millions of characters are looked at once, and compared as their beginning only."""
+    for unit in ("0", "a", "/", "_img", "-redyellow", "\u0430", "1/0"):
+        hint = SUGGESTIONS.explain(unit * (4_000_000 // len(unit)))
+        assert len(hint) <= 400
+
+
+def test_a_lost_zero_that_fits_two_trials_is_not_guessed() -> None:
+    """0001 and 001 are both trials; 1 may be either."""
+    suggestions = Suggestions(("a/0001", "a/001", "a/0002"))
+    assert suggestions.explain("a/2") == "write a/0002: leading zeros matter"
+    assert suggestions.explain("a/1").startswith("did you mean a/")
+
+
+def test_capitals_that_fit_two_trials_are_not_guessed() -> None:
+    """Ids that differ in capitals only are both real."""
+    suggestions = Suggestions(("RAMp/1", "ramp/1", "ramp/2"))
+    assert suggestions.explain("RAMP/1") == "did you mean RAMp/1?"
+    assert suggestions.explain("RAMP/2") == "write ramp/2: capitals and small letters differ"

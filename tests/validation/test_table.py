@@ -92,6 +92,7 @@ def test_a_header_in_capitals_is_refused_but_understood() -> None:
     ("line", "hint"),
     [
         ("b/2", "give each column a cell"),
+        (";;", "separate cells by a comma, not by a semicolon"),
         ("b/2;0.5", "separate cells by a comma, not by a semicolon"),
         ("b/2,0,5", "write the probability with a point, 0.5, not 0,5"),
         ("a/x,y/1,0.5", 'put the trial id in double quotes, since it holds commas: "..."'),
@@ -159,7 +160,9 @@ def test_blank_lines_are_described_as_they_are(lines: list[str], message: str) -
 
 
 LINES = st.lists(
-    st.sampled_from(['"a/x,y/1",0.5', "b/2,0.5", "a/x,y/1,0,5", "", ",", '"', "trial_id,probability", "b/2", '"b/2"x,1'])
+    st.sampled_from(
+        ['"a/x,y/1",0.5', "b/2,0.5", "a/x,y/1,0,5", "", ",", '"', "trial_id,probability", "b/2", '"b/2"x,1']
+    )
 )
 
 
@@ -172,3 +175,12 @@ def test_every_line_is_a_row_or_is_reported(lines: list[str], line_end: str) -> 
         is_inside_run = line in ("", ",") and lines[number - 3 : number - 2] in ([""], [","])
         assert number in accounted or is_inside_run
     assert len({row.line for row in rows}) == len(rows)
+
+
+def test_a_row_without_its_status_is_told_about_the_comma() -> None:
+    """Whoever has a status column may leave the status empty, not out."""
+    assert (
+        hint_of("trial_id,probability,status\nb/2,0.5\n")
+        == "give each column a cell: an empty status too has its comma"
+    )
+    assert hint_of("trial_id,probability,status\nb/2\n") == "give each column a cell"
