@@ -77,9 +77,17 @@ def write_atomic(path: Path, content: bytes) -> None:
     """Write a file so that a reader sees the old content or the new, never a part.
 
     The bytes go to a temporary file in the same folder, are flushed to disk, and the file is renamed.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written, or if the path is a link, a device, a pipe or a folder, which a rename would
+        replace.
     """
     import tempfile  # only what writes pays for it
 
+    if os.path.lexists(path) and not stat.S_ISREG(path.lstat().st_mode):
+        raise OSError(errno.EEXIST, "not a regular file, so it is not replaced", str(path))
     try:
         descriptor, name = tempfile.mkstemp(prefix=".tmp-", dir=path.parent)
     except OSError as error:  # name the file that was asked for, not the temporary one

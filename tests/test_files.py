@@ -35,6 +35,26 @@ def test_write_atomic_keeps_the_old_file_when_the_disk_fails(
     assert [path.name for path in tmp_path.iterdir()] == ["result.json"]
 
 
+@pytest.mark.parametrize("kind", ["link", "dangling link", "pipe", "folder"])
+def test_write_atomic_replaces_nothing_but_regular_files(tmp_path: Path, kind: str) -> None:
+    """What is there and is no regular file stays what it is: a rename would silently destroy it."""
+    target = tmp_path / "target"
+    if kind == "link":
+        (tmp_path / "real").write_bytes(b"real")
+    make = {
+        "link": lambda: target.symlink_to("real"),
+        "dangling link": lambda: target.symlink_to("nowhere"),
+        "pipe": lambda: os.mkfifo(target),
+        "folder": target.mkdir,
+    }
+    make[kind]()
+    before = sorted((path.name, path.lstat().st_ino) for path in tmp_path.iterdir())
+    with pytest.raises(OSError, match="not a regular file, so it is not replaced") as caught:
+        write_atomic(target, b"new")
+    assert caught.value.filename == str(target)
+    assert sorted((path.name, path.lstat().st_ino) for path in tmp_path.iterdir()) == before
+
+
 def test_a_file_that_cannot_be_written_is_named_as_asked_for(tmp_path: Path) -> None:
     """The error speaks of the target, not of a temporary file that nobody knows."""
     target = tmp_path / "nowhere/result.json"

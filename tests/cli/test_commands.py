@@ -146,6 +146,14 @@ class TestGrade:
         run("grade", bare, "--output", output)
         assert json.loads(output.read_text())["submission"] is None
 
+    def test_output_to_a_link_is_refused(self, run: Run, example: Path, tmp_path: Path) -> None:
+        """A rename would replace the link, or a device, by a file."""
+        link = tmp_path / "link.json"
+        link.symlink_to("nowhere.json")
+        result = run("grade", example, "--output", link, exit_code=1)
+        assert f"error: {link}: not a regular file, so it is not replaced" in result.stderr
+        assert link.is_symlink()
+
     def test_json_is_the_result(self, run: Run, example: Path) -> None:
         """One path gives one object, several give a list."""
         committed = json.loads((example / "result.json").read_text())
