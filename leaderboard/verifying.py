@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from leaderboard.assessing import assess
 from leaderboard.errors import BrokenReferenceError
-from leaderboard.grading import result_bytes
+from leaderboard.grading import Yardstick, result_bytes
 from leaderboard.instance import LEDGER_FILE, RESULT_FILE, Instance
 from leaderboard.models import Manifest
 from leaderboard.reference import load_reference
@@ -55,9 +55,10 @@ def verify_instance(instance: Instance, *, today: dt.date) -> Verification:
     except BrokenReferenceError as error:
         return Verification(None, error.message, (), _find_strays(instance))
     verdicts = []
+    yardstick = Yardstick.of(reference)
     for folder in instance.submission_dirs():
         raw = read_submission(folder, instance.display_path(folder))
-        assessment = assess(raw, reference, today=today)
+        assessment = assess(raw, reference, today=today, yardstick=yardstick)
         committed = raw.find(RESULT_FILE)
         if assessment.result is None:
             errors = [problem for problem in assessment.problems if problem.is_error]

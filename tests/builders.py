@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from leaderboard.grading import grade
+from leaderboard.metrics.accuracy import credits_of
 from leaderboard.models import Benchmark, Manifest, Metadata
 from leaderboard.ranking import Entry
 from leaderboard.reference.data import People, Reference, Responses
@@ -148,4 +149,5 @@ def build_entry(
     """Grade probabilities into an entry of the board; changes go to its metadata."""
     answered = None if covered is None else covered
     submission = build_submission(reference, probabilities, answered=answered, covered=covered)
-    return Entry(slug, build_metadata(**({"name": slug} | changes)), grade(submission, reference))
+    credits = credits_of(submission.probabilities, reference.labels, submission.answered)
+    return Entry(slug, build_metadata(**({"name": slug} | changes)), grade(submission, reference), credits)

@@ -148,6 +148,16 @@ def text_of(element: Element) -> str:
     return " ".join("".join(element.itertext()).split())
 
 
+def score_of(cell: Element) -> str:
+    """The number that a cell of a table shows, without what stands below it."""
+    return next(text_of(part) for part in cell.iter() if part.get("class") == "score")
+
+
+def interval_of(cell: Element) -> str:
+    """The interval below a number, as it is printed; nothing where there is none."""
+    return "".join((part[0].tail or "").strip() for part in cell.iter() if part.get("class") == "interval")
+
+
 def html_files(files: dict[str, bytes]) -> Iterator[tuple[str, Element]]:
     """Parse every page of a site."""
     yield from ((path, parse_html(content)) for path, content in files.items() if path.endswith(".html"))

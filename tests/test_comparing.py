@@ -7,8 +7,10 @@ import pytest
 
 from builders import build_reference, build_submission
 from leaderboard.comparing import Comparison, ScopeComparison, compare
-from leaderboard.comparing.draws import Draws, find_sets
 from leaderboard.errors import LeaderboardError
+from leaderboard.grading import Yardstick, tally_scores
+from leaderboard.grading.draws import Draws
+from leaderboard.grading.observations import Observations
 from leaderboard.metrics.resampling import Interval
 from leaderboard.metrics.undefined import Undefined
 from leaderboard.reference import Reference
@@ -50,11 +52,11 @@ def test_the_interval_of_accuracy_equals_a_loop_over_resamples() -> None:
     }
     draws = Draws.of(REFERENCE)
     means = []
-    for weights in draws.pairs:
+    for weights in draws.pairs.T:
         parts = []
         for name in ("Alpha", "Beta"):
             trials = np.flatnonzero(REFERENCE.in_property(name))
-            drawn = [t for t in trials for _ in range(weights[REFERENCE.pairs[t]])]
+            drawn = [t for t in trials for _ in range(int(weights[REFERENCE.pairs[t]]))]
             parts.append(np.mean([credits["aaa"][t] - credits["bbb"][t] for t in drawn]))
         means.append(np.mean(parts))
     low, high = np.percentile(means, [2.5, 97.5])
@@ -62,36 +64,15 @@ def test_the_interval_of_accuracy_equals_a_loop_over_resamples() -> None:
     assert (found.low, found.high) == pytest.approx((low, high), abs=1e-12)
 
 
-def test_the_interval_of_human_r_equals_a_loop_over_resamples() -> None:
-    """Trials and people are drawn together: each drawn person votes again on what they saw."""
-    people = REFERENCE.people
-    assert people is not None
-    assert people.responses is not None
-    draws, votes = Draws.of(REFERENCE), people.responses
-    assert draws.people is not None
-    trials = np.flatnonzero(REFERENCE.in_property("Beta"))
-    differences = []
-    for pair_weights, person_weights in zip(draws.pairs, draws.people, strict=True):
-        means, repeats = [], []
-        for t in trials:
-            chosen = votes.trials == t
-            weights = person_weights[votes.participants[chosen]]
-            n = weights.sum()
-            means.append((weights * votes.answers[chosen]).sum() / n if n else 0)
-            repeats.append(int(pair_weights[REFERENCE.pairs[t]]) if n else 0)
-        drawn = np.repeat(trials, repeats)
-        h = np.repeat(means, repeats)
-        r = [
-            np.corrcoef(s.probabilities[drawn], h)[0, 1]
-            if drawn.size and np.ptp(s.probabilities[drawn]) > 0 and np.ptp(h) > 0
-            else np.nan
-            for s in (A, B)
-        ]
-        differences.append(r[0] - r[1])
+def test_the_interval_of_human_r_is_of_the_difference_on_each_resample() -> None:
+    """The same pairs and people are drawn for both, so what moves both alike leaves the difference alone."""
+    yardstick, everything = Yardstick.of(REFERENCE), np.ones(REFERENCE.n_trials, bool)
+    tallies = [tally_scores(Observations.of(s, REFERENCE), everything, yardstick) for s in (A, B)]
+    a, b = (tally.resampled["Beta", "all", "human_r"] for tally in tallies)
     found = _scope(compare(A, B, REFERENCE), "Beta").human_r_difference
     assert isinstance(found, Interval)
-    assert (found.low, found.high) == pytest.approx(np.nanpercentile(differences, [2.5, 97.5]), abs=1e-9)
-    assert found.n_undefined == np.isnan(differences).sum()
+    assert (found.low, found.high) == pytest.approx(np.nanpercentile(a - b, [2.5, 97.5]), abs=1e-12)
+    assert found.n_undefined == np.isnan(a - b).sum()
 
 
 def test_exchanging_the_two_turns_every_sign_and_keeps_p() -> None:
@@ -162,21 +143,3 @@ def test_with_counts_only_people_are_fixed() -> None:
     assert Draws.of(counts).people is None
     found = _scope(compare(_submission("a", 1, counts), _submission("b", 2, counts), counts), "Beta")
     assert isinstance(found.human_r_difference, Interval)
-
-
-def test_people_who_saw_the_same_trials_are_a_set() -> None:
-    """In the small reference people alternate between two sets; all different ones are one set."""
-    people = REFERENCE.people
-    assert people is not None
-    assert people.responses is not None
-    assert find_sets(people.responses, REFERENCE).tolist() == [0, 1] * 6
-    first = people.responses.participants
-    different = replace(
-        people.responses,
-        participant_ids=("p001", "p002"),
-        participants=np.array([0, 0, 1, 1]),
-        trials=np.array([0, 2, 0, 4]),
-        answers=np.zeros(4, np.int64),
-    )
-    assert find_sets(different, REFERENCE).tolist() == [0, 0]
-    assert first.max() == 11

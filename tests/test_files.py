@@ -1,6 +1,7 @@
 """Reading with limits, writing all or nothing."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -41,7 +42,7 @@ def test_write_atomic_replaces_nothing_but_regular_files(tmp_path: Path, kind: s
     target = tmp_path / "target"
     if kind == "link":
         (tmp_path / "real").write_bytes(b"real")
-    make = {
+    make: dict[str, Callable[[], object]] = {
         "link": lambda: target.symlink_to("real"),
         "dangling link": lambda: target.symlink_to("nowhere"),
         "pipe": lambda: os.mkfifo(target),

@@ -1,5 +1,6 @@
 """Who stands where on a board, and which results may stand there at all."""
 
+import datetime as dt
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -10,10 +11,13 @@ import pytest
 import tomli_w
 
 from builders import build_entry, build_metadata, build_reference, build_submission
+from leaderboard.comparing import compare
 from leaderboard.errors import InstanceError, LeaderboardError
-from leaderboard.files import sha256_hex
-from leaderboard.grading import grade, result_bytes
-from leaderboard.ranking import Entry, load_entry, rank_entries
+from leaderboard.files import csv_text, sha256_hex
+from leaderboard.grading import Yardstick, grade, result_bytes
+from leaderboard.metrics.undefined import Undefined
+from leaderboard.ranking import Entry, Standing, find_gains, load_entry, rank_entries
+from leaderboard.ranking.shares import denominator, share_out
 from leaderboard.reference import Reference
 from leaderboard.submission import RawSubmission, read_submission
 
@@ -89,9 +93,10 @@ def test_metrics_without_a_better_end_do_not_rank(reference: Reference, metric: 
 
 
 def _write(folder: Path, reference: Reference) -> RawSubmission:
-    """Write a graded submission whose predictions file is any text: only its checksum matters here."""
+    """Write a graded submission that is undecided on every trial."""
     folder.mkdir()
-    predictions = b"trial_id,probability\n"
+    rows = [[trial_id, 0.5] for trial_id in reference.trial_ids]
+    predictions = csv_text(["trial_id", "probability"], rows).encode()
     submission = build_submission(reference, [0.5] * reference.n_trials)
     submission = replace(submission, predictions_sha256=sha256_hex(predictions))
     metadata = build_metadata().model_dump(exclude_none=True)
@@ -105,6 +110,7 @@ def test_a_fresh_result_is_loaded(tmp_path: Path, reference: Reference) -> None:
     """What was written is what is read."""
     entry = load_entry(_write(tmp_path / "mine", reference), reference)
     assert (entry.slug, entry.metadata) == ("mine", build_metadata())
+    assert entry.credits.tolist() == [0.5] * reference.n_trials
 
 
 @pytest.mark.parametrize(
@@ -152,3 +158,89 @@ def test_broken_metadata_is_refused(tmp_path: Path, reference: Reference) -> Non
     (tmp_path / "mine/submission.toml").write_bytes(b"\xff= [")
     with pytest.raises(InstanceError, match=r"submission\.toml is not valid"):
         load_entry(read_submission(tmp_path / "mine", "submissions/mine"), reference)
+
+
+def _simulate_credits(reference: Reference, accuracy: float, seed: int) -> list[float]:
+    rng = np.random.default_rng(seed)
+    is_right = rng.random(reference.n_trials) < accuracy
+    return [0.9 if is_yes else 0.1 for is_yes in is_right == (reference.labels == 1)]
+
+
+@pytest.fixture(scope="module")
+def large() -> Reference:
+    """Build a reference with pairs enough to tell systems apart."""
+    return build_reference(40, n_people=4)
+
+
+def test_a_board_by_accuracy_says_how_sure_its_ranks_are(large: Reference) -> None:
+    """Rank sets hold the ranks, the best one is in the best group, and chances to be the best add up to 1."""
+    entries = [build_entry(large, f"s{i}", _simulate_credits(large, 0.5 + i / 20, i)) for i in range(8)]
+    board = rank_entries(entries, large.benchmark.default_track, yardstick=Yardstick.of(large))
+    standings = [row.standing for row in board.ranked if row.standing]
+    assert len(standings) == 8
+    for row, standing in zip(board.ranked, standings, strict=True):
+        assert row.rank is not None
+        assert 1 <= standing.low <= row.rank <= standing.high <= 8
+    assert standings[0].is_among_best
+    assert not standings[-1].is_among_best
+    assert sum(s.best_probability for s in standings) == pytest.approx(1, abs=1e-5)
+    assert isinstance(board.detectable, float)
+    assert 0.02 < board.detectable < 0.3
+
+
+def test_equal_submissions_stand_alike_and_sixty_are_as_good_as_one(large: Reference) -> None:
+    """Copies have one rank, one set that holds all the ranks they could be given, and equal chances."""
+    same = _simulate_credits(large, 0.7, 1)
+    entries = [build_entry(large, f"same{i:02d}", same) for i in range(60)]
+    board = rank_entries(entries, large.benchmark.default_track, yardstick=Yardstick.of(large))
+    assert {row.rank for row in board.ranked} == {1}
+    assert {row.standing for row in board.ranked} == {Standing(1, 60, round(1 / 60, 6), is_among_best=True)}
+    assert board.detectable == Undefined("there are fewer than two different systems")
+
+
+def test_partial_submissions_have_no_standing(large: Reference) -> None:
+    """Only complete submissions are compared, and a board by another metric has no rank sets."""
+    covered = large.in_property("Beta").tolist()
+    partial = build_entry(large, "part", [0.9] * large.n_trials, covered=covered)
+    whole = build_entry(large, "whole", _simulate_credits(large, 0.6, 2))
+    yardstick = Yardstick.of(large)
+    board = rank_entries([partial, whole], large.benchmark.default_track, yardstick=yardstick)
+    assert [(row.entry.slug, row.standing is not None) for row in board.rows] == [
+        ("whole", True),
+        ("part", False),
+    ]
+    board = rank_entries([whole], large.benchmark.default_track, "auc", yardstick=yardstick)
+    assert board.ranked[0].standing is None
+
+
+def test_gain_is_that_of_comparing_the_two(large: Reference) -> None:
+    """With minus without property inference: the same difference, interval and p as ``compare`` gives."""
+    good, bad = _simulate_credits(large, 0.8, 3), _simulate_credits(large, 0.6, 4)
+    with_it = build_entry(large, "with-it", good)
+    old = build_entry(large, "old", good, testing="without_property", date=dt.date(2025, 1, 1))
+    new = build_entry(large, "new", bad, testing="without_property")
+    other_team = build_entry(
+        large, "other", good, testing="without_property", team="Other", date=dt.date(2026, 9, 9)
+    )
+    other_training = build_entry(large, "zero", good, testing="without_property", training="zero_shot")
+    yardstick = Yardstick.of(large)
+    gains = find_gains([with_it, old, new, other_team, other_training], yardstick)
+    assert set(gains) == {"with-it"}
+    expected = compare(build_submission(large, good), build_submission(large, bad), large).scopes[0]
+    found = gains["with-it"]
+    assert found.without == "new"
+    assert (found.value, found.low, found.high) == pytest.approx(
+        (expected.difference.value, expected.difference.low, expected.difference.high), abs=1e-6
+    )
+    assert found.p == expected.p
+    board = rank_entries([with_it, new], large.benchmark.default_track, yardstick=yardstick)
+    assert [row.gain for row in board.ranked] == [found]
+
+
+def test_shares_add_up_to_the_accuracy(reference: Reference) -> None:
+    """Whole numbers by pair whose sum over the denominator is the mean of the properties' accuracies."""
+    credits = np.random.default_rng(0).choice([0, 0.5, 1], reference.n_trials)
+    shares = share_out([credits], reference)
+    parts = [credits[reference.in_property(name)].mean() for name in ("Alpha", "Beta")]
+    assert shares.dtype == np.int64
+    assert shares.sum() / denominator(reference) == pytest.approx(np.mean(parts))

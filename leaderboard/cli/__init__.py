@@ -15,6 +15,8 @@ from leaderboard.errors import LeaderboardError
 
 # Start-up and safety: pydantic would otherwise search every installed package for plugins and run them.
 os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+# Matrices are small here: more threads gain little, and on a busy machine they wait for each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 COMMANDS = {
     "validate": "Check submission folders or prediction files; report every problem at once.",

@@ -8,10 +8,9 @@ import click
 from leaderboard.assessing import Assessment, assess
 from leaderboard.cli.location import Location, current_terminal, today
 from leaderboard.files import canonical_json, write_atomic
-from leaderboard.grading import grade_people, result_bytes
+from leaderboard.grading import Yardstick, grade_people, result_bytes
 from leaderboard.instance import RESULT_FILE
 from leaderboard.models import Result
-from leaderboard.reference import Reference
 from leaderboard.report.problems import render_problems
 from leaderboard.submission import RawSubmission, read_any
 from leaderboard.verifying import list_differences
@@ -40,18 +39,19 @@ def command(
     if output and is_check:
         raise click.UsageError("--check writes nothing, so --output has no meaning with it")
     instance, reference = location.load_reference()
+    yardstick = Yardstick.of(reference)
     results: list[Result] = []
     is_fine = True
     for path in paths:
         raw = read_any(path, instance.display_path(path))
-        assessment = assess(raw, reference, today=today())
+        assessment = assess(raw, reference, today=today(), yardstick=yardstick)
         if assessment.result is None:
             click.echo(render_problems(assessment.problems, "text"), err=True, nl=False)
             is_fine = False
             continue
         results.append(assessment.result)
         if not is_json:
-            _print_result(assessment, assessment.result, reference)
+            _print_result(assessment, assessment.result, yardstick)
         is_fine = _store(raw, path, assessment.result, output, is_check=is_check) and is_fine
     if is_json:
         data = [result.model_dump(mode="json", by_alias=True) for result in results]
@@ -59,11 +59,12 @@ def command(
     sys.exit(0 if is_fine else 1)
 
 
-def _print_result(assessment: Assessment, result: Result, reference: Reference) -> None:
+def _print_result(assessment: Assessment, result: Result, yardstick: Yardstick) -> None:
     from leaderboard.report.result import render_result
 
     metadata = assessment.submission.metadata if assessment.submission else None
-    people = grade_people(reference)
+    reference = yardstick.reference
+    people = grade_people(reference, yardstick=yardstick)
     text = render_result(result, reference, people, metadata=metadata, terminal=current_terminal())
     click.echo(text)
 

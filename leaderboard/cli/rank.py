@@ -4,15 +4,11 @@ import click
 
 from leaderboard.cli.location import Location, current_terminal
 from leaderboard.errors import LeaderboardError
-from leaderboard.grading import grade_people
+from leaderboard.grading import Yardstick, grade_people
 from leaderboard.models import Benchmark, Track
 from leaderboard.ranking import load_entries, rank_entries
-from leaderboard.report.board import (
-    render_board,
-    render_board_csv,
-    render_board_json,
-    render_board_latex,
-)
+from leaderboard.report.board import render_board, render_board_csv, render_board_json
+from leaderboard.report.latex import render_board_latex
 
 
 @click.command("rank")
@@ -26,8 +22,9 @@ def command(location: Location, track_id: str | None, metric: str, format_: str 
     """Print the board of a track: people, ranked and partial submissions, baselines."""
     instance, reference = location.load_reference()
     track = _choose_track(reference.benchmark, track_id)
-    board = rank_entries(load_entries(instance, reference), track, metric)
-    people = grade_people(reference)
+    yardstick = Yardstick.of(reference)
+    board = rank_entries(load_entries(instance, reference), track, metric, yardstick=yardstick)
+    people = grade_people(reference, yardstick=yardstick)
     if format_ is None:
         click.echo(render_board(board, reference, people, terminal=current_terminal()), nl=False)
     else:

@@ -1,87 +1,102 @@
 """Comparing two submissions, scope by scope, with the same resamples for both."""
 
 from collections.abc import Iterator, Sequence
+from typing import Literal, TypeVar
 
 import numpy as np
 
 from leaderboard.comparing.comparison import Comparison, Overlap, ScopeComparison, TrialDifference
-from leaderboard.comparing.draws import Draws
 from leaderboard.errors import LeaderboardError
-from leaderboard.grading import Scope, list_scopes
-from leaderboard.metrics.accuracy import Booleans, Floats, Integers, credits_of
-from leaderboard.metrics.agreement import answers_of, human_r, mean_kappa
+from leaderboard.grading import Scope, Yardstick, find_metric, list_scopes, tally_scores
+from leaderboard.grading.metrics import NO_HUMAN_DATA
+from leaderboard.grading.observations import Observations
+from leaderboard.grading.tally import Tally
+from leaderboard.metrics.accuracy import Floats, Integers, credits_of
+from leaderboard.metrics.agreement import answers_of, mean_kappa
 from leaderboard.metrics.exact_tests import paired_p
-from leaderboard.metrics.resampling import Interval, percentile_interval, resample_correlation
+from leaderboard.metrics.resampling import Interval, percentile_interval
 from leaderboard.metrics.undefined import Estimate, Undefined
-from leaderboard.models.benchmark import OVERALL
-from leaderboard.reference import People, Reference
+from leaderboard.models import Metadata
+from leaderboard.ranking import is_counterpart
+from leaderboard.reference import Reference
 from leaderboard.submission import Submission
 
 N_TRIALS_SHOWN = 10
 
-NO_HUMAN_DATA = Undefined("the reference has no human data")
 SAME_ANSWER_ALWAYS = Undefined("both give one and the same answer to every trial")
+
+T = TypeVar("T")
 
 Two = tuple[Submission, Submission]
 
 
-def compare(a: Submission, b: Submission, reference: Reference) -> Comparison:
+def compare(
+    a: Submission, b: Submission, reference: Reference, *, yardstick: Yardstick | None = None
+) -> Comparison:
     """Compare two submissions on every scope that both cover wholly, by pairs.
 
-    Intervals are 95 % percentile bootstrap intervals over pairs, stratified by scenario, with the same draws
-    for both; where responses of single people are known, people are drawn as well, within the set of people
-    who saw the same trials. Overall is the mean of the properties; its exact test pools their pairs.
+    Intervals are those of grading, from the same resamples for both. Overall is the mean of the properties;
+    its exact test pools their pairs.
 
     Raises
     ------
     LeaderboardError
         If they share no scope.
     """
-    scopes = list_scopes(reference, a.covered & b.covered)
+    covered = a.covered & b.covered
+    scopes = list_scopes(reference, covered)
     if not scopes:
         names = f"{a.slug} and {b.slug}"
         raise LeaderboardError(f"{names} cover no scenario in common", "there is nothing to compare")
-    draws = Draws.of(reference)
+    yardstick = yardstick or Yardstick.of(reference)
+    tallies = [tally_scores(Observations.of(s, reference), covered, yardstick) for s in (a, b)]
     grading = reference.benchmark.grading
     return Comparison(
         a=a.slug or "A",
         b=b.slug or "B",
+        property_gain=_find_gain(a.metadata, b.metadata),
         resamples=grading.resamples,
         seed=grading.seed,
-        scopes=tuple(_compare_scope(scope, (a, b), reference, draws) for scope in scopes),
+        scopes=tuple(_compare_scope(scope, (a, b), reference, tallies) for scope in scopes),
         trials=tuple(_find_trials(a, b, reference)),
     )
 
 
-def _compare_scope(scope: Scope, two: Two, reference: Reference, draws: Draws) -> ScopeComparison:
-    mask, parts = scope.mask, _parts_of(scope, reference)
+def _find_gain(a: Metadata | None, b: Metadata | None) -> Literal["A-B", "B-A"] | None:
+    if a is None or b is None:
+        return None
+    if is_counterpart(a, b):
+        return "A-B"
+    return "B-A" if is_counterpart(b, a) else None
+
+
+def _compare_scope(scope: Scope, two: Two, reference: Reference, tallies: Sequence[Tally]) -> ScopeComparison:
+    mask = scope.mask
     credits = [credits_of(s.probabilities, reference.labels, s.answered) for s in two]
     answers = [answers_of(s.probabilities[mask]) for s in two]
     difference = _sum_by_pair(reference.pairs[mask], (credits[0] - credits[1])[mask])
+    accuracies = [tally.estimates[scope.name]["all"]["accuracy"] for tally in tallies]
+    accuracy = _subtract(tallies, scope.name, "accuracy")
     return ScopeComparison(
         name=scope.name,
         kind=scope.kind,
         n=int(mask.sum()),
         n_pairs=difference.size,
-        accuracy_a=_average([credits[0][part].mean() for part in parts]),
-        accuracy_b=_average([credits[1][part].mean() for part in parts]),
-        difference=_accuracy_interval(credits[0] - credits[1], parts, reference, draws),
+        accuracy_a=_always_defined(accuracies[0]),
+        accuracy_b=_always_defined(accuracies[1]),
+        difference=_always_defined(accuracy),
         p=paired_p(np.rint(2 * difference).astype(np.int64)),
         overlap=_count_overlap(credits[0][mask], credits[1][mask], difference),
-        human_r_difference=_human_r_interval(two, parts, reference, draws),
+        human_r_difference=_subtract(tallies, scope.name, "human_r"),
         kappa=_kappa(answers[0], answers[1]),
     )
 
 
-def _parts_of(scope: Scope, reference: Reference) -> list[Booleans]:
-    """The masks whose values are averaged: the properties for overall, else the scope itself."""
-    if scope.name != OVERALL:
-        return [scope.mask]
-    return [reference.in_property(property_.name) for property_ in reference.benchmark.properties]
-
-
-def _average(values: Sequence[float]) -> float:
-    return float(np.mean(values))
+def _always_defined(value: T | Undefined) -> T:
+    """Take a mean over trials, of which every scope has some."""
+    if isinstance(value, Undefined):
+        raise TypeError(value.why)
+    return value
 
 
 def _sum_by_pair(pairs: Integers, values: Floats) -> Floats:
@@ -90,53 +105,18 @@ def _sum_by_pair(pairs: Integers, values: Floats) -> Floats:
     return sums[np.bincount(pairs) > 0]
 
 
-def _accuracy_interval(
-    difference: Floats, parts: Sequence[Booleans], reference: Reference, draws: Draws
-) -> Interval:
-    """Bootstrap the mean over parts of the mean difference of credits: weights times sums by pair."""
-    values, resampled = [], []
-    for part in parts:
-        pairs, weights = reference.pairs[part], draws.pairs.astype(np.float64)
-        n_pairs = len(reference.pair_ids)
-        sums = np.bincount(pairs, difference[part], minlength=n_pairs)
-        sizes = np.bincount(pairs, minlength=n_pairs).astype(np.float64)
-        values.append(difference[part].mean())
-        resampled.append((weights @ sums) / (weights @ sizes))
-    interval = percentile_interval(_average(values), np.mean(resampled, axis=0))
-    if isinstance(interval, Undefined):
-        raise TypeError("a mean over drawn pairs always has a value")
-    return interval
-
-
-def _human_r_interval(
-    two: Two, parts: Sequence[Booleans], reference: Reference, draws: Draws
-) -> Interval | Undefined:
-    """Bootstrap the mean over parts of the difference in human r, trials and people drawn together."""
-    people = reference.people
-    if people is None:
-        return NO_HUMAN_DATA
-    values, resampled = [], []
-    for part in parts:
-        rated = part & (people.n > 0)
-        means = people.n_yes[rated] / people.n[rated]
-        r_a, r_b = (human_r(s.probabilities[rated], means) for s in two)
-        if isinstance(r_a, Undefined):
-            return Undefined(f"A has no human r: {r_a.why}")
-        if isinstance(r_b, Undefined):
-            return Undefined(f"B has no human r: {r_b.why}")
-        values.append(r_a - r_b)
-        resampled.append(_resample_difference(two, rated, (reference, people), draws))
-    return percentile_interval(_average(values), np.mean(resampled, axis=0))
-
-
-def _resample_difference(two: Two, rated: Booleans, people: tuple[Reference, People], draws: Draws) -> Floats:
-    """Compute the difference in human r on each resample, shape (n_resamples,); NaN where one has none."""
-    a, b = (submission.probabilities[rated] for submission in two)
-    chunks = [
-        resample_correlation(a, means, weights) - resample_correlation(b, means, weights)
-        for weights, means in draws.resample_people(*people, rated)
-    ]
-    return np.concatenate(chunks)
+def _subtract(tallies: Sequence[Tally], scope: str, metric: str) -> Interval | Undefined:
+    """Subtract B's estimate from A's, resample by resample."""
+    values = []
+    for name, tally in zip("AB", tallies, strict=True):
+        estimate = tally.estimates[scope]["all"][metric]
+        if isinstance(estimate, Undefined):
+            if estimate == NO_HUMAN_DATA:
+                return estimate
+            return Undefined(f"{name} has no {find_metric(metric).title.lower()}: {estimate.why}")
+        values.append(estimate)
+    a, b = (tally.resampled[scope, "all", metric] for tally in tallies)
+    return percentile_interval(values[0] - values[1], a - b)
 
 
 def _count_overlap(credits_a: Floats, credits_b: Floats, difference: Floats) -> Overlap:

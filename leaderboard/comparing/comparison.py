@@ -65,10 +65,15 @@ class TrialDifference:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Everything that two submissions differ in, on the trials that both cover."""
+    """Everything that two submissions differ in, on the trials that both cover.
+
+    ``property_gain`` says which difference it is, if the two are one system with and without property
+    inference.
+    """
 
     a: str
     b: str
+    property_gain: Literal["A-B", "B-A"] | None
     resamples: int
     seed: int
     scopes: tuple[ScopeComparison, ...]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 from typing import Literal
 
 from leaderboard.errors import LeaderboardError
@@ -11,7 +12,7 @@ from leaderboard.metrics import agreement, calibration, pairs
 from leaderboard.metrics.exact_tests import accuracy_p
 from leaderboard.metrics.undefined import Estimate, Undefined
 
-METRICS_VERSION = 1
+METRICS_VERSION = 2
 """Goes up whenever any number could change."""
 
 NO_HUMAN_DATA = Undefined("the reference has no human data")
@@ -70,6 +71,10 @@ def _human_r(o: Observations) -> Estimate:
     return agreement.human_r(o.probabilities[o.rated], o.human_means)
 
 
+def _human_r_normalized(o: Observations) -> Estimate:
+    return agreement.human_r_normalized(_human_r(o), o.reliability)
+
+
 def _human_r_partial(o: Observations) -> Estimate:
     return agreement.human_r_partial(o.probabilities[o.rated], o.human_means, o.labels[o.rated])
 
@@ -91,6 +96,10 @@ def _cohen_kappa(o: Observations) -> Estimate:
         return NO_RESPONSES
     trials, persons, answers = o.responses
     return agreement.mean_kappa(agreement.answers_of(o.probabilities)[trials], answers, persons)
+
+
+def _human_ece(o: Observations) -> Estimate:
+    return calibration.human_ece(o.probabilities[o.rated], o.human_means)
 
 
 def _human_gap(o: Observations) -> Estimate:
@@ -129,6 +138,17 @@ METRICS: tuple[Metric, ...] = (
         "higher",
         -1,
         1,
+        0,
+        "people",
+    ),
+    Metric(
+        "human_r_normalized",
+        "Human r, share of the ceiling",
+        _human_r_normalized,
+        "Human r divided by the highest that noise in people's answers allows; not clipped.",
+        "higher",
+        -inf,
+        inf,
         0,
         "people",
     ),
@@ -227,6 +247,17 @@ METRICS: tuple[Metric, ...] = (
         None,
     ),
     Metric(
+        "human_ece",
+        "Calibration error, people",
+        _human_ece,
+        "Expected distance between P(YES) and the share of people who said YES, over 10 bins.",
+        "lower",
+        0,
+        1,
+        None,
+        "people",
+    ),
+    Metric(
         "yes_rate",
         "YES rate",
         lambda o: calibration.yes_rate(o.probabilities),
@@ -248,6 +279,9 @@ METRICS: tuple[Metric, ...] = (
         "people",
     ),
 )
+
+
+P_VALUES = frozenset(metric.name for metric in METRICS if metric.is_p_value)
 
 
 def find_metric(name: str) -> Metric:

@@ -8,8 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from leaderboard.metrics.accuracy import Booleans, Floats, Integers, credits_of
+from leaderboard.metrics.undefined import Estimate, Undefined
 from leaderboard.reference import Reference
 from leaderboard.submission import Submission
+
+NOT_A_PROPERTY = Undefined("people's reliability is estimated for whole properties")
 
 
 @dataclass(frozen=True)
@@ -24,6 +27,8 @@ class Observations:
         Number of people who judged the trial, and of these YES.
     responses : (n_responses,) each, or None where responses of single people are unknown
         Position of the trial in the arrays above, the person, and the answer.
+    reliability
+        That of the human means, where these are the trials of a whole property.
     """
 
     probabilities: Floats
@@ -34,6 +39,7 @@ class Observations:
     n: Integers | None
     n_yes: Integers | None
     responses: tuple[Integers, Integers, Integers] | None
+    reliability: Estimate = NOT_A_PROPERTY
 
     @classmethod
     def of(cls, submission: Submission, reference: Reference) -> Self:
@@ -51,7 +57,7 @@ class Observations:
             responses=(single.trials, single.participants, single.answers) if single else None,
         )
 
-    def select(self, mask: Booleans) -> Self:
+    def select(self, mask: Booleans, *, reliability: Estimate = NOT_A_PROPERTY) -> Self:
         """Keep only some of the trials, and the responses to them."""
         kept = np.flatnonzero(mask)
         return type(self)(
@@ -63,6 +69,7 @@ class Observations:
             n=None if self.n is None else self.n[kept],
             n_yes=None if self.n_yes is None else self.n_yes[kept],
             responses=self._select_responses(mask),
+            reliability=reliability,
         )
 
     @cached_property

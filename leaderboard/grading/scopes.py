@@ -6,10 +6,13 @@ from typing import Literal
 import numpy as np
 
 from leaderboard.metrics.accuracy import Booleans, is_above, is_below, right_counts
+from leaderboard.metrics.undefined import Undefined
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.reference import Reference
 
-SUBSETS = ("all", "easy", "hard")
+CROSSFIT_SUBSETS = ("easy_crossfit", "hard_crossfit")
+EMPTY_SUBSET = Undefined("no trial is in this subset")
+SUBSETS = ("all", "easy", "hard", *CROSSFIT_SUBSETS)
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Like people or not: correlation with the human mean, and agreement with single people."""
 
+from math import sqrt
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +17,7 @@ CONSTANT_OBSERVED = Undefined("all human means are equal")
 LABEL_EXPLAINS_PREDICTED = Undefined("probabilities do not vary apart from the label")
 LABEL_EXPLAINS_OBSERVED = Undefined("human means do not vary apart from the label")
 NO_PERSON_WITH_TWO = Undefined("no person rated two of these trials")
+NOT_RELIABLE = Undefined("people agree no more than chance would have it, so there is no ceiling")
 CHANCE_IS_CERTAIN = Undefined("for every person, chance alone already gives full agreement")
 
 
@@ -41,6 +44,21 @@ def human_r(predicted: Floats, observed: Floats) -> Estimate:
     if not centred_observed.any():
         return CONSTANT_OBSERVED
     return _correlate(centred_predicted, centred_observed)
+
+
+def human_r_normalized(r: Estimate, reliability: Estimate) -> Estimate:
+    """Divide human r by its ceiling, the square root of the reliability of the human means; not clipped.
+
+    Spearman's (1904) correction for attenuation on people's side: noise in the human means keeps the
+    correlation of even the best predictions at sqrt(reliability). Undefined as either is, and where the
+    reliability is not above 0.
+
+    >>> human_r_normalized(0.3, 0.36)
+    0.5
+    """
+    if isinstance(r, Undefined) or isinstance(reliability, Undefined):
+        return r if isinstance(r, Undefined) else reliability
+    return r / sqrt(reliability) if reliability > 0 else NOT_RELIABLE
 
 
 def human_r_partial(predicted: Floats, observed: Floats, labels: Integers) -> Estimate:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from leaderboard.metrics.undefined import NO_TRIALS, Estimate, Undefined
+from leaderboard.metrics.undefined import NO_RATED_TRIALS, NO_TRIALS, Estimate, Undefined
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -49,7 +49,7 @@ def brier(probabilities: Floats, labels: Integers) -> Estimate:
     return float(np.mean((probabilities - labels) ** 2)) if labels.size else NO_TRIALS
 
 
-def ece(probabilities: Floats, labels: Integers) -> Estimate:
+def ece(probabilities: Floats, labels: Integers | Floats) -> Estimate:
     """Expected calibration error over 10 equal-width bins (Guo et al. 2017), in [0, 1], lower is better.
 
     The sum over bins of (trials in the bin / trials) times the distance between the mean label and the mean
@@ -60,9 +60,32 @@ def ece(probabilities: Floats, labels: Integers) -> Estimate:
     """
     if not labels.size:
         return NO_TRIALS
-    bins = np.searchsorted(np.arange(1, N_BINS) / N_BINS, probabilities, side="left")
-    excess = np.bincount(bins, probabilities - labels, minlength=N_BINS)
+    excess = np.bincount(find_bins(probabilities), probabilities - labels, minlength=N_BINS)
     return float(np.abs(excess).sum() / labels.size)
+
+
+def human_ece(predicted: Floats, observed: Floats) -> Estimate:
+    """Calibration error toward people, in [0, 1], lower is better: as ``ece``, with human means for labels.
+
+    Parameters
+    ----------
+    predicted, observed : (n_rated,)
+
+    Examples
+    --------
+    >>> human_ece(np.array([0.75, 0.75]), np.array([0.5, 1.0]))
+    0.0
+    """
+    return NO_RATED_TRIALS if not predicted.size else ece(predicted, observed)
+
+
+def find_bins(probabilities: Floats) -> Integers:
+    """Number the calibration bin of each probability, 0 to 9; the bins are those of ``ece``.
+
+    >>> find_bins(np.array([0.0, 0.1, 0.15, 1.0])).tolist()
+    [0, 0, 1, 9]
+    """
+    return np.searchsorted(np.arange(1, N_BINS) / N_BINS, probabilities, side="left")
 
 
 def yes_rate(probabilities: Floats) -> Estimate:

@@ -2,10 +2,23 @@
 
 from leaderboard.models.benchmark import Benchmark, Grading, Manifest, Property, Scenario, Source, Track
 from leaderboard.models.metadata import Metadata, Protocol
-from leaderboard.models.result import Check, Coverage, Inputs, Result, Score, SubsetScores
+from leaderboard.models.result import (
+    Bin,
+    Bootstrap,
+    Calibration,
+    Check,
+    Coverage,
+    Inputs,
+    Result,
+    Score,
+    SubsetScores,
+)
 
 __all__ = [
     "Benchmark",
+    "Bin",
+    "Bootstrap",
+    "Calibration",
     "Check",
     "Coverage",
     "Grading",

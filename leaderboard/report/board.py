@@ -1,20 +1,21 @@
 """The board of a track as a terminal table, CSV, LaTeX and JSON; all from one list of columns."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from leaderboard.files import canonical_json, csv_text
+from leaderboard.metrics.undefined import Undefined
 from leaderboard.models import Score, SubsetScores
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Entry, Row
 from leaderboard.reference import Reference
 from leaderboard.report.terminal import (
-    ABSENT,
     Terminal,
+    format_interval,
     format_number,
     format_percent,
     new_table,
@@ -24,16 +25,12 @@ from leaderboard.report.terminal import (
 
 Scores = Mapping[str, Mapping[str, SubsetScores]]
 
-WIDE = 118
+WIDE = 150
+ALPHA = 0.05
+BEST_MARK = "†"
 MAX_NARROW_TITLE = 8
 NARROW_NOTE = "A wider terminal shows easy and hard trials and pairs too."
 
-_LATEX_SPECIAL = {
-    "\\": r"\textbackslash{}",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-    **{character: f"\\{character}" for character in "&%$#_{}"},
-}
 _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
@@ -46,11 +43,13 @@ class Column:
     scope: str = OVERALL
     subset: str = "all"
     show: Callable[[Score | None], str] = format_percent
+    is_interval: bool = False
 
     @property
-    def key(self) -> str:
-        """Its name in CSV: metric, scope and subset where they are not the usual ones."""
-        return ".".join(part for part in (self.metric, self.scope, self.subset) if part != "all")
+    def keys(self) -> list[str]:
+        """Its names in CSV: metric, scope, subset where it is not all, and both ends of an interval."""
+        name = ".".join(part for part in (self.metric, self.scope, self.subset) if part != "all")
+        return [f"{name}.low", f"{name}.high"] if self.is_interval else [name]
 
     def score(self, scores: Scores) -> Score | None:
         """Look it up in a submission's or the people's scores."""
@@ -60,7 +59,10 @@ class Column:
 
 def board_columns(board: Board, reference: Reference) -> tuple[Column, ...]:
     """Choose the columns: the metric that orders the board, accuracy by property, people, pairs."""
-    columns = [Column("accuracy", "accuracy")]
+    columns = [
+        Column("accuracy", "accuracy"),
+        Column("95 %", "accuracy", show=_show_interval, is_interval=True),
+    ]
     if board.metric != "accuracy":
         columns.insert(0, Column(board.metric, board.metric, show=format_number))
     columns += [Column(p.name, "accuracy", scope=p.name) for p in reference.benchmark.properties]
@@ -83,18 +85,53 @@ def render_board(
     if is_narrow:
         columns = tuple(column for column in columns if column.subset == "all")[:-1]
     titles = [_shorten(column.title) if is_narrow else column.title for column in columns]
-    table = new_table(["system", *titles])
+    facts = _row_facts(board, is_narrow=is_narrow)
+    table = new_table(["system", *facts, *titles])
     if people:
-        table.add_row("   People", *(column.show(column.score(people)) for column in columns), style="cyan")
+        shown = (column.show(column.score(people)) for column in columns)
+        table.add_row("   People", *("" for _ in facts), *shown, style="cyan")
         table.add_section()
     for rows, style in ((board.ranked, ""), (board.partial, ""), (board.baselines, "dim")):
         for row in rows:
             shown = (column.show(column.score(row.entry.result.scores)) for column in columns)
-            table.add_row(_name_row(row), *shown, style=style)
+            table.add_row(_name_row(row), *(show(row) for show in facts.values()), *shown, style=style)
         table.add_section()
     heading = Text(board.track.title, "bold").append("\n").append(reference_banner(reference))
     notes = _board_notes(board) + ([NARROW_NOTE] if is_narrow else [])
     return render_tables([heading, "", table, *(Text(note, "dim") for note in notes)], terminal)
+
+
+def _show_interval(score: Score | None) -> str:
+    return format_interval(score, format_percent)
+
+
+def _row_facts(board: Board, *, is_narrow: bool) -> dict[str, Callable[[Row], str]]:
+    """Choose the columns that say how sure a rank is and what a system gains, as far as any row has them."""
+    facts: dict[str, Callable[[Row], str]] = {}
+    if any(row.standing for row in board.ranked):
+        facts |= {"ranks": _show_ranks} | ({} if is_narrow else {"best, %": _show_best})
+    if any(row.gain for row in board.ranked):
+        facts["gain"] = _show_gain
+    return facts
+
+
+def _show_ranks(row: Row) -> str:
+    if row.standing is None:
+        return ""
+    low, high = row.standing.low, row.standing.high
+    return (f"{low}" if low == high else f"{low} to {high}") + (
+        BEST_MARK if row.standing.is_among_best else " "
+    )
+
+
+def _show_best(row: Row) -> str:
+    return "" if row.standing is None else f"{100 * row.standing.best_probability:.0f}"
+
+
+def _show_gain(row: Row) -> str:
+    if row.gain is None:
+        return ""
+    return f"{100 * row.gain.value:+.1f}" + ("*" if row.gain.p < ALPHA else " ")
 
 
 def _shorten(title: str) -> str:
@@ -111,7 +148,11 @@ def _name_row(row: Row) -> RenderableType:
 
 
 def _board_notes(board: Board) -> list[str]:
-    notes = ["Shares in %. Equal scores share a rank. How sure a difference is: leaderboard compare A B."]
+    notes = [f"Shares in %. {_describe_ranks(board)} Whether two differ: leaderboard compare A B."]
+    if isinstance(board.detectable, float):
+        notes.append(f"A true difference of {100 * board.detectable:.1f} points is found 4 times in 5.")
+    if any(row.gain for row in board.ranked):
+        notes.append(f"gain: points over the system without property inference; * exact paired p < {ALPHA}.")
     if not board.ranked and not board.partial:
         notes.insert(0, "No submission on this track yet.")
     if board.partial:
@@ -122,23 +163,31 @@ def _board_notes(board: Board) -> list[str]:
     return notes
 
 
+def _describe_ranks(board: Board) -> str:
+    if not any(row.standing for row in board.ranked):
+        return "Equal scores share a rank."
+    return f"ranks: 95 % rank set, {BEST_MARK} not distinguishable from the best."
+
+
 def render_board_csv(board: Board, reference: Reference, people: Scores) -> str:
     """Render a board as CSV with full precision; what a spreadsheet could run gets a leading apostrophe."""
     columns = board_columns(board, reference)
     header = [
         "rank",
+        "rank_low",
+        "rank_high",
         "kind",
         "slug",
         "name",
         "team",
         "date",
         "reference",
-        *(column.key for column in columns),
+        *(key for column in columns for key in column.keys),
     ]
     kind = reference.manifest.kind
     rows: list[list[object]] = []
     if people:
-        rows.append(["", "people", "", "People", "", "", kind, *_values(columns, people)])
+        rows.append(["", "", "", "people", "", "People", "", "", kind, *_values(columns, people)])
     for row in board.rows:
         about = row.entry.metadata.submission
         texts = [
@@ -148,13 +197,20 @@ def render_board_csv(board: Board, reference: Reference, people: Scores) -> str:
             about.date.isoformat(),
             kind,
         ]
-        rows.append([row.rank or "", row_kind(row), *texts, *_values(columns, row.entry.result.scores)])
+        ranks = [row.standing.low, row.standing.high] if row.standing else ["", ""]
+        rows.append(
+            [row.rank or "", *ranks, row_kind(row), *texts, *_values(columns, row.entry.result.scores)]
+        )
     return csv_text(header, rows)
 
 
 def _values(columns: tuple[Column, ...], scores: Scores) -> list[object]:
-    found = [column.score(scores) for column in columns]
-    return ["" if score is None or score.value is None else score.value for score in found]
+    found = [(column.score(scores), column.is_interval) for column in columns]
+    values: list[object] = []
+    for score, is_interval in found:
+        ends = [score.low, score.high] if score and is_interval else [None, None] if is_interval else []
+        values += ends if is_interval else [score.value if score else None]
+    return ["" if value is None else value for value in values]
 
 
 def row_kind(row: Row) -> str:
@@ -175,47 +231,6 @@ def escape_formula(text: str) -> str:
     return f"'{text}" if text.startswith(_FORMULA_STARTS) else text
 
 
-def render_board_latex(board: Board, reference: Reference, people: Scores) -> str:
-    """Render a board as a LaTeX table with booktabs rules."""
-    columns = board_columns(board, reference)
-    blocks = [[_latex_row(["", "System", *(column.title for column in columns)])]]
-    if people:
-        blocks.append(
-            [_latex_row(["", "People", *(column.show(column.score(people)) for column in columns)])]
-        )
-    groups = (board.ranked, board.partial, board.baselines)
-    blocks += [[_latex_entry(row, columns) for row in rows] for rows in groups]
-    lines = [*_latex_comments(board, reference), rf"\begin{{tabular}}{{rl{'r' * len(columns)}}}", r"\toprule"]
-    lines.append("\n\\midrule\n".join("\n".join(block) for block in blocks if block))
-    return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])
-
-
-def _latex_comments(board: Board, reference: Reference) -> list[str]:
-    title, track = escape_latex(reference.benchmark.title), escape_latex(board.track.title)
-    comments = [f"% {title}, {track}, reference {reference.manifest.digest}"]
-    if reference.is_synthetic:
-        comments.append("% SYNTHETIC reference: labels and people are simulated; no figure here is real.")
-    return comments
-
-
-def _latex_entry(row: Row, columns: tuple[Column, ...]) -> str:
-    shown = [column.show(column.score(row.entry.result.scores)) for column in columns]
-    return _latex_row(["" if row.rank is None else str(row.rank), row.entry.metadata.submission.name, *shown])
-
-
-def _latex_row(cells: list[str]) -> str:
-    return " & ".join("--" if cell == ABSENT else escape_latex(cell) for cell in cells) + r" \\"
-
-
-def escape_latex(text: str) -> str:
-    r"""Write a text so that LaTeX prints it and runs nothing.
-
-    >>> print(escape_latex("50% of $x_1$"))
-    50\% of \$x\_1\$
-    """
-    return "".join(_LATEX_SPECIAL.get(character, character) for character in text)
-
-
 def render_board_json(board: Board, reference: Reference, people: Scores) -> str:
     """Render a board as JSON with all scores of every row."""
     return canonical_json(
@@ -226,6 +241,7 @@ def render_board_json(board: Board, reference: Reference, people: Scores) -> str
             "track": board.track.id,
             "metric": board.metric,
             "people": scores_data(people),
+            "detectable_difference": board_detectable(board),
             "rows": [row_data(row) for row in board.rows],
         }
     )
@@ -233,7 +249,22 @@ def render_board_json(board: Board, reference: Reference, people: Scores) -> str
 
 def row_data(row: Row) -> dict[str, object]:
     """Lay out a row of the board for JSON."""
-    return {"rank": row.rank, "kind": row_kind(row), **entry_data(row.entry)}
+    standing: dict[str, object] = {}
+    if row.standing:
+        standing = {
+            "rank_set": [row.standing.low, row.standing.high],
+            "best_probability": row.standing.best_probability,
+            "among_best": row.standing.is_among_best,
+        }
+    gain = {"property_gain": asdict(row.gain)} if row.gain else {}
+    return {"rank": row.rank, "kind": row_kind(row), **standing, **gain, **entry_data(row.entry)}
+
+
+def board_detectable(board: Board) -> dict[str, object]:
+    """Lay out the smallest difference in accuracy that the board's pairs can tell, or why there is none."""
+    if isinstance(board.detectable, Undefined):
+        return {"value": None, "why": board.detectable.why}
+    return {"value": board.detectable}
 
 
 def entry_data(entry: Entry) -> dict[str, object]:

@@ -122,6 +122,10 @@ def _trial_table(comparison: Comparison) -> Table:
 def _notes(comparison: Comparison) -> list[str]:
     resamples = f"{comparison.resamples:,} resamples, the same for both."
     notes = [f"{INTERVAL_NOTE} {resamples}", TEST_NOTE, "kappa: agreement of the two answers, beyond chance."]
+    if comparison.property_gain:
+        notes.insert(
+            0, f"{comparison.property_gain} is the property gain: one system, with and without inference."
+        )
     lost = max((_n_undefined(scope.human_r_difference) for scope in comparison.scopes), default=0)
     if lost:
         notes.append(f"Human r has no value in up to {lost:,} resamples; its interval is that of the others.")

@@ -12,6 +12,7 @@ from leaderboard.reference import Reference
 from leaderboard.report.terminal import (
     ABSENT,
     Terminal,
+    format_interval,
     format_number,
     format_p,
     format_percent,
@@ -22,6 +23,8 @@ from leaderboard.report.terminal import (
 
 LARGE_GAP = 0.05
 ALPHA = 0.05
+PAPER_SUBSETS = ("easy", "hard")
+CROSSFIT_SUBSETS = ("easy_crossfit", "hard_crossfit")
 
 Scores = Mapping[str, Mapping[str, SubsetScores]]
 
@@ -49,8 +52,12 @@ def render_result(
         _accuracy_table(result, reference, people),
     ]
     if reference.people is not None:
-        parts += [_subset_table(result, reference, people)] if result.coverage.properties else []
-        parts += [_agreement_table(result, reference)]
+        parts += [
+            _subset_table(result, reference, people, names)
+            for names in (PAPER_SUBSETS, CROSSFIT_SUBSETS)
+            if any(names[0] in subsets for subsets in result.scores.values())
+        ]
+        parts += [_agreement_table(result, reference, people), _kappa_table(result, reference)]
     parts += [_probability_table(result, reference)]
     parts += [Text(line, "dim") for line in _legend(result, reference)]
     parts += [Text(f"warning: {check.code}: {check.message}", "yellow") for check in result.checks]
@@ -90,28 +97,34 @@ def _score(scores: Scores, scope: str, subset: str, metric: str) -> Score | None
 
 
 def _accuracy_table(result: Result, reference: Reference, people: Scores) -> Table:
-    table = new_table(["accuracy, %", "trials", "model", "people", "gap", "p"])
+    table = new_table(["accuracy, %", "trials", "model", "95 %", "people", "95 %", "gap", "p"])
     for scope, title in _scope_rows(result, reference):
         p = _score(result.scores, scope, "all", "accuracy_p")
         cells: list[str | Text] = [str(result.scores[scope]["all"].n)]
-        cells += [_mark_chance(_score(result.scores, scope, "all", "accuracy"), p)]
-        cells += [format_percent(_score(people, scope, "all", "accuracy"))]
+        model, human = (_score(scores, scope, "all", "accuracy") for scores in (result.scores, people))
+        cells += [_mark_chance(model, p), format_interval(model, format_percent)]
+        cells += [format_percent(human), format_interval(human, format_percent)]
         cells += [_mark_gap(_score(result.scores, scope, "all", "human_gap")), format_p(p)]
         table.add_row(title, *cells, style="bold" if scope == OVERALL else "")
     return table
 
 
-def _subset_table(result: Result, reference: Reference, people: Scores) -> Table:
+def _subset_table(result: Result, reference: Reference, people: Scores, names: tuple[str, str]) -> Table:
     """Tabulate easy and hard trials, which only overall and properties have."""
     columns = [column for name in ("easy", "hard") for column in (f"{name} n", "model", "people", "r")]
-    table = new_table(["easy and hard, %", *columns])
+    table = new_table(
+        ["the same, cross-fitted" if names == CROSSFIT_SUBSETS else "easy and hard, %", *columns]
+    )
     for scope, title in _scope_rows(result, reference):
         subsets = result.scores[scope]
-        if "easy" not in subsets:
+        if names[0] not in subsets:
             continue
         cells = []
-        for name in ("easy", "hard"):
-            cells += [str(subsets[name].n), format_percent(_score(result.scores, scope, name, "accuracy"))]
+        for name in names:
+            cells += [
+                f"{subsets[name].n:.0f}",
+                format_percent(_score(result.scores, scope, name, "accuracy")),
+            ]
             cells += [format_percent(_score(people, scope, name, "accuracy"))]
             cells += [format_number(_score(result.scores, scope, name, "human_r"))]
         table.add_row(title, *cells, style="bold" if scope == OVERALL else "")
@@ -149,15 +162,26 @@ def _metric_table(
     return table
 
 
-def _agreement_table(result: Result, reference: Reference) -> Table:
+def _agreement_table(result: Result, reference: Reference, people: Scores) -> Table:
+    """Tabulate agreement, with the ceiling of r where there is one: on whole properties, and overall."""
+    table = new_table(["agreement with people", "r", "95 %", "ceiling", "r/ceiling", "95 %"])
+    for scope, title in _scope_rows(result, reference):
+        r, share = (_score(result.scores, scope, "all", m) for m in ("human_r", "human_r_normalized"))
+        cells = [format_number(r), format_interval(r, format_number)]
+        cells += [format_number(_score(people, scope, "all", "ceiling"))]
+        cells += [format_number(share), format_interval(share, format_number)]
+        table.add_row(title, *cells, style="bold" if scope == OVERALL else "")
+    return table
+
+
+def _kappa_table(result: Result, reference: Reference) -> Table:
     columns = {
-        "r": ("human_r", "all", format_number),
         "partial r": ("human_r_partial", "all", format_number),
         "rmse": ("human_rmse", "all", format_number),
         "error kappa": ("error_consistency", "all", format_number),
         "answer kappa": ("cohen_kappa", "all", format_number),
     }
-    return _metric_table(result, reference, "agreement with people", columns)
+    return _metric_table(result, reference, "more agreement", columns)
 
 
 def _probability_table(result: Result, reference: Reference) -> Table:
@@ -167,18 +191,26 @@ def _probability_table(result: Result, reference: Reference) -> Table:
         "AUC": ("auc", "all", format_number),
         "Brier": ("brier", "all", format_number),
         "ECE": ("ece", "all", format_number),
+        "of people": ("human_ece", "all", format_number),
         "YES, %": ("yes_rate", "all", format_percent),
     }
     return _metric_table(result, reference, "pairs, probabilities", columns)
 
 
 def _legend(result: Result, reference: Reference) -> Iterator[str]:
+    bootstrap = result.bootstrap
+    has_responses = reference.people is not None and reference.people.responses is not None
+    people = " and over people" if has_responses else ""
+    yield f"95 %: bootstrap over pairs within scenarios{people}, {bootstrap.resamples:,} resamples."
     yield f"* above chance: exact one-sided p < {ALPHA}, not corrected for the number of rows."
     if reference.people is not None:
         yield f"▲ ▼ the model is {100 * LARGE_GAP:.0f} points or more above or below people, same trials."
         both = sum(result.scores[name]["easy"].n_pairs_in_both or 0 for name in result.coverage.properties)
         easy, hard = reference.benchmark.grading.easy, reference.benchmark.grading.hard
         yield f"easy, hard: pairs with a member people get right above {easy}, below {hard}; both: {both}."
+        if any(CROSSFIT_SUBSETS[0] in subsets for subsets in result.scores.values()):
+            yield "cross-fitted: one half of the people chooses, the other is measured; n is an average."
+        yield "ceiling: the highest r that noise in people's answers allows."
     reasons = dict.fromkeys(
         score.why
         for subsets in result.scores.values()

@@ -1,6 +1,6 @@
 """Tables for terminals, rendered to text: what all of them share."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from io import StringIO
 
@@ -85,6 +85,17 @@ def format_percent(score: Score | None) -> str:
     ('58.9', True)
     """
     return ABSENT if score is None or score.value is None else f"{100 * score.value:.1f}"
+
+
+def format_interval(score: Score | None, show: Callable[[Score | None], str]) -> str:
+    """Show the ends of a 95 % interval as the value is shown, and a dash where there is none.
+
+    >>> format_interval(Score(value=0.5, low=0.45, high=0.548), format_percent)
+    '45.0 to 54.8'
+    """
+    if score is None or score.low is None or score.high is None:
+        return ABSENT
+    return " to ".join(show(Score(value=end)) for end in (score.low, score.high))
 
 
 def format_number(score: Score | None, digits: int = 3) -> str:

@@ -1,9 +1,10 @@
 """From the board of a track to its page."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from leaderboard.grading import find_metric
+from leaderboard.models import Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Row
 from leaderboard.website.describing import (
@@ -12,16 +13,20 @@ from leaderboard.website.describing import (
     count_of,
     describe_coverage,
     describe_people,
-    describe_subset,
     submission_path,
 )
 from leaderboard.website.material import Count, Material
-from leaderboard.website.numbers import Footnotes
-from leaderboard.website.pages import BoardPage, BoardRow, BoardSection, Column, ColumnGroup, Fact, Link
+from leaderboard.website.numbers import EN_DASH, Footnotes, name_p
+from leaderboard.website.pages import BoardPage, BoardRow, BoardSection, Cell, Column, ColumnGroup, Link
+from leaderboard.website.quantities import find_quantity
+from leaderboard.website.remarks import list_remarks
 
 NOT_COVERED = "not all of these trials are covered"
 NOT_FOR_PEOPLE = "not computed for people"
-FACT_TITLES = ("Family", "Inputs", "Date")
+NO_COUNTERPART = "not tested both with and without property inference"
+GAIN = find_quantity("property_gain")
+CEILING = find_quantity("ceiling")
+FACT_TITLES = ("Family, inputs", "Date")
 
 
 @dataclass(frozen=True)
@@ -37,7 +42,8 @@ class ScoreColumn:
 
 def compose_board(board: Board, material: Material) -> BoardPage:
     """Gather what the page of a board shows."""
-    composer = _RowComposer(material, _choose_columns(material), Footnotes())
+    has_gain = any(row.gain for row in board.ranked)
+    composer = _RowComposer(material, _choose_columns(material), has_gain, Footnotes())
     sections = _compose_sections(board, composer)
     return BoardPage(
         path=board_path(board),
@@ -45,11 +51,11 @@ def compose_board(board: Board, material: Material) -> BoardPage:
         summary=_describe_size(material),
         tracks=_link_tracks(material, board),
         caption=_describe_order(material),
-        groups=_group_columns(composer.columns, material),
+        groups=_group_columns(composer, material),
         fact_titles=FACT_TITLES,
         sections=sections,
         footnotes=composer.footnotes.texts,
-        remarks=_list_remarks(material),
+        remarks=list_remarks(board, material),
         elsewhere=_link_unplaced(material) if board.track.default else (),
     )
 
@@ -62,18 +68,22 @@ def _choose_columns(material: Material) -> tuple[ScoreColumn, ...]:
     columns += [ScoreColumn(shares, name, "accuracy", scope=name) for name in names]
     if material.people:
         columns += [ScoreColumn(shares, s.title(), "accuracy", subset=s) for s in ("easy", "hard")]
-        columns.append(ScoreColumn("Agreement", find_metric("human_r").title, "human_r"))
+        columns.append(ScoreColumn("Agreement with people", find_metric("human_r").title, "human_r"))
+        columns.append(ScoreColumn("Agreement with people", "Share of ceiling", "human_r_normalized"))
     if material.has_pairs:
         columns.append(ScoreColumn("Pairs, %", find_metric("pair_accuracy").title, "pair_accuracy"))
     return tuple(columns)
 
 
-def _group_columns(columns: Sequence[ScoreColumn], material: Material) -> tuple[ColumnGroup, ...]:
+def _group_columns(composer: "_RowComposer", material: Material) -> tuple[ColumnGroup, ...]:
     groups: dict[str, list[Column]] = {}
-    for column in columns:
+    for column in composer.columns:
         metric = find_metric(column.metric)
         below = _describe_count(column.metric, material.count(column.scope, column.subset))
         groups.setdefault(column.group, []).append(Column(column.title, below, metric.name, metric.meaning))
+    if composer.has_gain:
+        below = count_of(material.count(OVERALL).n, "trial")
+        groups["Gain, points"] = [Column(GAIN.title, below, GAIN.name, GAIN.meaning)]
     return tuple(ColumnGroup(title, tuple(members)) for title, members in groups.items())
 
 
@@ -105,46 +115,63 @@ class _RowComposer:
 
     material: Material
     columns: tuple[ScoreColumn, ...]
+    has_gain: bool
     footnotes: Footnotes
 
     def compose(self, rows: Sequence[Row]) -> tuple[BoardRow, ...]:
         """Print submissions."""
-        return tuple(self._compose_row(row) for row in rows)
+        best = _name_best(rows)
+        return tuple(self._compose_row(row, best) for row in rows)
 
     def compose_people(self) -> BoardRow:
-        """Print people."""
-        cells = tuple(
-            self.footnotes.cell(
-                find_metric(column.metric),
-                self.material.people_score(column.metric, column.scope, column.subset),
-                absent=NOT_FOR_PEOPLE,
-            )
-            for column in self.columns
-        )
+        """Print people; where submissions have their human r, people have its ceiling."""
+        cells = [self._print_people(column) for column in self.columns]
+        if self.has_gain:
+            cells.append(self.footnotes.cell(GAIN, None, absent=NOT_FOR_PEOPLE))
         details = (describe_people(self.material),)
-        return BoardRow("", "", "People", (), details, cells, ("",) * len(FACT_TITLES))
+        return BoardRow("", "", "", "People", (), details, tuple(cells), ("",) * len(FACT_TITLES))
 
-    def _compose_row(self, row: Row) -> BoardRow:
+    def _print_people(self, column: ScoreColumn) -> Cell:
+        if column.metric == "human_r":
+            ceiling = self.material.people_score(CEILING.name, column.scope, column.subset)
+            return self.footnotes.cell(CEILING, ceiling, absent=NOT_FOR_PEOPLE, remark="ceiling")
+        score = self.material.people_score(column.metric, column.scope, column.subset)
+        return self.footnotes.cell(find_metric(column.metric), score, absent=NOT_FOR_PEOPLE)
+
+    def _compose_row(self, row: Row, best: str) -> BoardRow:
         entry, about = row.entry, row.entry.metadata.submission
         model = entry.metadata.model
-        cells = tuple(
-            self.footnotes.cell(
-                find_metric(column.metric),
-                entry.score(column.metric, column.scope, column.subset),
-                absent=NOT_COVERED,
-            )
-            for column in self.columns
-        )
         coverage = () if entry.is_complete else (describe_coverage(entry, self.material),)
+        standing = row.standing
+        judged = (best,) if best and standing and standing.is_among_best else ()
         return BoardRow(
             slug=entry.slug,
             rank="" if row.rank is None else str(row.rank),
+            ranks=f"{standing.low}{EN_DASH}{standing.high}" if standing else "",
             name=about.name,
-            badges=badges_of(entry),
+            badges=(*judged, *badges_of(entry)),
             details=(about.team, *coverage),
-            cells=cells,
-            facts=(model.family, model.inputs, about.date.isoformat()),
+            cells=tuple(self._print_scores(row)),
+            facts=(f"{model.family}, {model.inputs}", about.date.isoformat()),
         )
+
+    def _print_scores(self, row: Row) -> Iterator[Cell]:
+        for column in self.columns:
+            score = row.entry.score(column.metric, column.scope, column.subset)
+            yield self.footnotes.cell(find_metric(column.metric), score, absent=NOT_COVERED)
+        if self.has_gain:
+            gain = row.gain
+            score = Score(value=gain.value, low=gain.low, high=gain.high) if gain else None
+            remark = name_p(gain.p) if gain else ""
+            yield self.footnotes.cell(GAIN, score, absent=NO_COUNTERPART, remark=remark)
+
+
+def _name_best(rows: Sequence[Row]) -> str:
+    """Say in words who cannot be told from the best; nothing where there is nobody to be told from."""
+    are_best = [row.standing.is_among_best for row in rows if row.standing]
+    if len(are_best) <= 1:
+        return ""
+    return "among the best" if sum(are_best) > 1 else "the best"
 
 
 def _link_tracks(material: Material, current: Board) -> tuple[Link, ...]:
@@ -183,21 +210,3 @@ def _describe_order(material: Material) -> str:
         "Complete submissions in order of overall accuracy, the plain mean of the properties; "
         f"equal scores share a rank.{simulated}"
     )
-
-
-def _list_remarks(material: Material) -> tuple[Fact, ...]:
-    remarks = [
-        Fact(
-            "How sure",
-            "Intervals are not shown yet. leaderboard compare A B says how sure a difference is.",
-        )
-    ]
-    if material.people:
-        remarks += [Fact(subset.title(), describe_subset(subset, material)) for subset in ("easy", "hard")]
-        caution = (
-            "Trials are chosen and people measured on the same responses, so people look better on easy and "
-            "worse on hard trials than they are. Scores of submissions are free of that."
-        )
-        both = " A pair can be easy and hard at once." if material.has_pairs else ""
-        remarks.append(Fact("Caution", caution + both))
-    return tuple(remarks)

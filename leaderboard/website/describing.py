@@ -1,9 +1,20 @@
 """Words and addresses that several pages share."""
 
-from leaderboard.grading import Metric
+from leaderboard.grading.panels import N_CROSSFIT_SPLITS
+from leaderboard.grading.scopes import CROSSFIT_SUBSETS
+from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Entry
 from leaderboard.website.material import Material
 from leaderboard.website.numbers import show_bound
+from leaderboard.website.quantities import Described
+
+SUBSET_TITLES = {
+    "all": "All",
+    "easy": "Easy",
+    "hard": "Hard",
+    "easy_crossfit": "Easy, cross-fitted",
+    "hard_crossfit": "Hard, cross-fitted",
+}
 
 
 def board_path(board: Board) -> str:
@@ -54,11 +65,21 @@ def describe_people(material: Material) -> str:
     return f"{count_of(len(people.responses.participant_ids), 'person', 'people')}, {responses}"
 
 
-def describe_chance(metric: Metric) -> str:
+def describe_chance(quantity: Described) -> str:
     """Print what guessing gives, or nothing where that is not one number."""
-    if metric.chance is None:
+    if quantity.chance is None:
         return ""
-    return show_bound(metric, metric.chance)
+    return show_bound(quantity, quantity.chance)
+
+
+def list_subsets(material: Material) -> tuple[str, ...]:
+    """Name the subsets that the reference has the human data for."""
+    return tuple(material.people[OVERALL]) if material.people else ("all",)
+
+
+def is_crossfit(subset: str) -> bool:
+    """Tell whether one half of the people chooses the trials, so that their numbers are averages."""
+    return subset in CROSSFIT_SUBSETS
 
 
 def describe_subset(subset: str, material: Material) -> str:
@@ -66,8 +87,15 @@ def describe_subset(subset: str, material: Material) -> str:
     grading = material.reference.benchmark.grading
     what = "Pairs of which at least one trial was" if material.has_pairs else "Trials"
     rule = f"{what} answered rightly by"
+    crossfit = (
+        "for one random half of the people, measured on the other half; "
+        f"means over {N_CROSSFIT_SPLITS:,} halvings, "
+        "each both ways."
+    )
     return {
         "all": "Every trial.",
         "easy": f"{rule} more than {grading.easy} of the people.",
         "hard": f"{rule} fewer than {grading.hard} of the people.",
+        "easy_crossfit": f"Easy {crossfit}",
+        "hard_crossfit": f"Hard {crossfit}",
     }[subset]

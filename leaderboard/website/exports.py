@@ -1,20 +1,28 @@
 """The numbers behind the pages, for programs: JSON under ``api/`` and one CSV table."""
 
 from collections.abc import Iterator
+from math import isinf
 
 from leaderboard import __version__
 from leaderboard.files import canonical_json, csv_text
 from leaderboard.grading import METRICS, METRICS_VERSION, subset_masks
-from leaderboard.models import Score
+from leaderboard.grading.metrics import P_VALUES
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Entry, Row
 from leaderboard.reference import People
-from leaderboard.report.board import entry_data, escape_formula, row_data, row_kind, scores_data
+from leaderboard.report.board import (
+    board_detectable,
+    entry_data,
+    escape_formula,
+    row_data,
+    row_kind,
+    scores_data,
+)
 from leaderboard.website.material import Count, Material
 
 SCHEMA = 1
 CSV_FACTS = [
-    *("track", "rank", "kind", "slug", "name", "system", "team", "date"),
+    *("track", "rank", "rank_low", "rank_high", "kind", "slug", "name", "system", "team", "date"),
     *("family", "inputs", "training", "testing", "reference"),
 ]
 
@@ -31,7 +39,7 @@ def render_exports(material: Material) -> Iterator[tuple[str, bytes]]:
 
 
 def leaderboard_data(material: Material) -> dict[str, object]:
-    """Lay out all boards with all scores."""
+    """Lay out all boards with all scores; an end of a metric's range that is infinite is null."""
     return {
         "schema": SCHEMA,
         "benchmark": material.reference.benchmark.name,
@@ -45,8 +53,8 @@ def leaderboard_data(material: Material) -> dict[str, object]:
                 "title": metric.title,
                 "meaning": metric.meaning,
                 "direction": metric.direction,
-                "low": metric.low,
-                "high": metric.high,
+                "low": _finite(metric.low),
+                "high": _finite(metric.high),
                 "chance": metric.chance,
             }
             for metric in METRICS
@@ -112,16 +120,18 @@ def _property_data(name: str, material: Material) -> dict[str, object]:
 def render_csv(material: Material) -> str:
     """Render one row per submission: what it is, and every metric overall and by property.
 
-    Text that a spreadsheet could run as a formula gets a leading apostrophe.
+    Each metric is followed by the ends of its 95 % interval, but for p-values, which have none. Text that a
+    spreadsheet could run as a formula gets a leading apostrophe.
     """
     scopes = [OVERALL, *(property_.name for property_ in material.reference.benchmark.properties)]
     keys = [(metric.name, scope) for metric in METRICS for scope in scopes]
-    header = [*CSV_FACTS, *(f"{metric}.{scope}" for metric, scope in keys)]
+    header = [*CSV_FACTS, *(name for key in keys for name in _name_columns(*key))]
     kind = material.reference.manifest.kind
     rows = []
     for track, row in _list_rows(material):
-        values = [_value(row.entry.score(metric, scope)) for metric, scope in keys]
-        facts = [track, row.rank or "", row_kind(row), *_describe(row.entry), kind]
+        values = [value for key in keys for value in _values(row.entry, *key)]
+        ranks = [row.standing.low, row.standing.high] if row.standing else ["", ""]
+        facts = [track, row.rank or "", *ranks, row_kind(row), *_describe(row.entry), kind]
         rows.append([*facts, *values])
     return csv_text(header, rows)
 
@@ -141,8 +151,20 @@ def _describe(entry: Entry) -> list[str]:
     return [escape_formula(text) for text in texts]
 
 
-def _value(score: Score | None) -> object:
-    return "" if score is None or score.value is None else score.value
+def _name_columns(metric: str, scope: str) -> list[str]:
+    name = f"{metric}.{scope}"
+    return [name] if metric in P_VALUES else [name, f"{name}.low", f"{name}.high"]
+
+
+def _values(entry: Entry, metric: str, scope: str) -> list[object]:
+    score = entry.score(metric, scope)
+    found = [score.value, score.low, score.high] if score else [None, None, None]
+    wanted = found[: len(_name_columns(metric, scope))]
+    return ["" if value is None else value for value in wanted]
+
+
+def _finite(end: float) -> float | None:
+    return None if isinf(end) else end
 
 
 def _board_data(board: Board) -> dict[str, object]:
@@ -153,6 +175,7 @@ def _board_data(board: Board) -> dict[str, object]:
         "default": track.default,
         "conditions": track.conditions,
         "metric": board.metric,
+        "detectable_difference": board_detectable(board),
         "rows": [row_data(row) for row in board.rows],
     }
 

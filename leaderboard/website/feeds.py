@@ -2,14 +2,17 @@
 
 import uuid
 
+from leaderboard.grading import find_metric
+from leaderboard.models import Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Entry
 from leaderboard.website.describing import badges_of
 from leaderboard.website.material import Material
-from leaderboard.website.numbers import show_percent
+from leaderboard.website.numbers import show_interval, show_percent
 from leaderboard.website.pages import Feed, FeedItem
 
 NEVER = "1970-01-01"
+ACCURACY = find_metric("accuracy")
 
 
 def compose_feed(material: Material) -> Feed:
@@ -28,8 +31,7 @@ def compose_feed(material: Material) -> Feed:
 
 def _compose_item(entry: Entry, material: Material) -> FeedItem:
     about = entry.metadata.submission
-    accuracy = entry.score("accuracy", OVERALL)
-    scored = f"Accuracy {show_percent(accuracy.value)} %. " if accuracy and accuracy.value is not None else ""
+    scored = _describe_accuracy(entry.score(ACCURACY.name, OVERALL))
     badges = f"({', '.join(badges_of(entry))}) " if badges_of(entry) else ""
     return FeedItem(
         id=_name_forever(material, entry.slug),
@@ -39,6 +41,13 @@ def _compose_item(entry: Entry, material: Material) -> FeedItem:
         updated=_at_midnight(about.date.isoformat()),
         summary=f"{scored}{badges}{about.description}".strip(),
     )
+
+
+def _describe_accuracy(score: Score | None) -> str:
+    if score is None or score.value is None:
+        return ""
+    interval = show_interval(ACCURACY, score)
+    return f"Accuracy {show_percent(score.value)} %" + (f" ({interval}). " if interval else ". ")
 
 
 def _name_forever(material: Material, slug: str) -> str:

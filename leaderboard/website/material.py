@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from leaderboard.errors import InstanceError
-from leaderboard.grading import Scores, grade_people, list_scopes, subset_masks
+from leaderboard.grading import Scores, Yardstick, grade_people, list_scopes, subset_masks
 from leaderboard.ids import SLUG_RULE, is_slug
 from leaderboard.instance import PREDICTIONS_FILE, RESULT_FILE, SUBMISSION_FILE, Instance
 from leaderboard.metrics.accuracy import Booleans
@@ -118,10 +118,11 @@ def load_publications(instance: Instance, reference: Reference) -> tuple[Publica
 def gather(reference: Reference, publications: Sequence[Publication]) -> Material:
     """Rank the submissions and score people."""
     entries = [publication.entry for publication in publications]
-    boards = (rank_entries(entries, track) for track in _default_first(reference))
+    yardstick = Yardstick.of(reference)
+    boards = (rank_entries(entries, track, yardstick=yardstick) for track in _default_first(reference))
     return Material(
         reference=reference,
-        people=grade_people(reference),
+        people=grade_people(reference, yardstick=yardstick),
         publications=tuple(sorted(publications, key=lambda publication: publication.entry.slug)),
         boards=tuple(board for board in boards if board.track.default or board.ranked or board.partial),
     )

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 MANY_ROWS = 25
+FEW_COLUMNS = 5
 
 
 @dataclass(frozen=True)
@@ -15,14 +16,36 @@ class Cell:
         As a reader sees it.
     exact
         With all digits of the result; empty where there is no value.
-    why, note
-        The reason why there is no value and the number of its footnote; empty and 0 where there is one.
+    interval, ends
+        Its 95 % interval as a reader sees it, and both ends with all digits; empty where there is none.
+    remark
+        Words below the number.
+    why
+        The reason why there is no value; empty where there is one.
+    n_undefined
+        Resamples without a value, which the interval leaves out.
+    note
+        The number of the footnote that tells of either; 0 without one.
     """
 
     text: str
     exact: str = ""
+    interval: str = ""
+    ends: tuple[str, ...] = ()
+    remark: str = ""
     why: str = ""
+    n_undefined: int = 0
     note: int = 0
+
+    @property
+    def title(self) -> str:
+        """The exact value, for a pointer that rests on it."""
+        parts = [self.exact]
+        if self.ends:
+            parts.append(f"95 % interval {' to '.join(self.ends)}")
+        if self.n_undefined:
+            parts.append(f"{self.n_undefined:,} resamples without a value")
+        return ", ".join(parts)
 
 
 @dataclass(frozen=True)
@@ -70,10 +93,11 @@ class Fact:
 
 @dataclass(frozen=True)
 class BoardRow:
-    """A line of a board; people have no slug."""
+    """A line of a board; people have no slug. ``ranks`` are those that it could have as well."""
 
     slug: str
     rank: str
+    ranks: str
     name: str
     badges: tuple[str, ...]
     details: tuple[str, ...]
@@ -124,6 +148,11 @@ class BoardPage(Page):
         return 2 + sum(len(group.columns) for group in self.groups) + len(self.fact_titles)
 
     @property
+    def has_ranks(self) -> bool:
+        """Whether any row says which ranks it could have as well."""
+        return any(row.ranks for section in self.sections for row in section.rows)
+
+    @property
     def is_long(self) -> bool:
         """Whether the table had better scroll in a box of its own, under headings that stay."""
         return sum(len(section.rows) for section in self.sections) > MANY_ROWS
@@ -131,17 +160,17 @@ class BoardPage(Page):
 
 @dataclass(frozen=True)
 class Tile:
-    """A headline number of a submission, with a line of comparison."""
+    """A headline number of a submission, with lines of comparison."""
 
     title: str
     cell: Cell
     unit: str
-    below: str
+    below: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class ScopeRow:
-    """The scores of one scope; ``level`` is 0 for overall, 1 for a property, 2 for a scenario."""
+    """The scores of one scope; ``level`` is 0 for overall, 1 for a property or a bin, 2 for a scenario."""
 
     title: str
     level: int
@@ -151,16 +180,34 @@ class ScopeRow:
 
 @dataclass(frozen=True)
 class ScoreTable:
-    """All scores of one subset; ``omitted`` are metrics that have no value anywhere in it, by reason."""
+    """A table of numbers under explained columns, such as all scores of one subset.
 
-    subset: str
+    ``key`` names it within its page; ``omitted`` are metrics that have no value anywhere in it, by reason.
+    """
+
+    key: str
     title: str
     caption: str
+    row_title: str
     count_titles: tuple[str, ...]
     columns: tuple[Column, ...]
     rows: tuple[ScopeRow, ...]
     footnotes: tuple[str, ...]
-    omitted: tuple[Fact, ...]
+    omitted: tuple[Fact, ...] = ()
+
+    @property
+    def is_narrow(self) -> bool:
+        """Whether it had better not be stretched over the whole page."""
+        return len(self.columns) <= FEW_COLUMNS
+
+
+@dataclass(frozen=True)
+class GainLine:
+    """What a system gains from inferring properties: words, the submission without, and how sure it is."""
+
+    before: str
+    without: Link
+    after: str
 
 
 @dataclass(frozen=True)
@@ -171,10 +218,12 @@ class SubmissionPage(Page):
     team: str
     badges: tuple[str, ...]
     standing: str
+    gain: GainLine | None
     board: Link
     tiles: tuple[Tile, ...]
     checks: tuple[Fact, ...]
     tables: tuple[ScoreTable, ...]
+    calibrations: tuple[ScoreTable, ...]
     about: tuple[Fact, ...]
     downloads: tuple[Link, ...]
     provenance: tuple[Fact, ...]
@@ -197,6 +246,8 @@ class MethodPage(Page):
     """What every number means."""
 
     metrics: tuple[MetricEntry, ...]
+    others: tuple[MetricEntry, ...]
+    people: ScoreTable | None
     terms: tuple[Fact, ...]
 
 

@@ -61,7 +61,7 @@ def test_it_works_below_a_sub_path(visit: Visit) -> None:
     assert style_applies(page)
     page.get_by_role("row").get_by_role("link", name="other-track").click()
     assert page.url == f"{visit.origin}/submissions/other-track/index.html"
-    page.get_by_role("link", name="Method").click()
+    page.get_by_role("link", name="Method", exact=True).click()
     assert page.url == f"{visit.origin}/method.html"
     page.get_by_role("link", name="Board", exact=True).click()
     assert page.url == f"{visit.origin}/index.html"
@@ -87,7 +87,7 @@ def test_everything_is_there_without_javascript(browser: Browser, served: str) -
     visit = start_visit(browser, served, javascript=False)
     page = visit.open("index.html")
     assert page.locator("tbody tr[id]").count() == 37
-    assert page.locator("tbody tr[id=good] td.number").count() == 7
+    assert page.locator("tbody tr[id=good] td.number").count() == 9
     assert page.locator("button, input, select, script").count() == 0
     assert page.get_by_text("Synthetic reference.").is_visible()
     page.context.close()
@@ -126,6 +126,31 @@ def test_headings_and_names_stay_in_sight(browser: Browser, served: str) -> None
     assert heading_box["y"] == pytest.approx(edges[0] + 1, abs=1.5)
     assert name_box["x"] == pytest.approx(edges[1] + 1, abs=1.5)
     page.context.close()
+
+
+def test_both_rows_of_headings_stay_in_sight(browser: Browser, served: str) -> None:
+    """The second row of headings stays right below the first."""
+    visit = start_visit(browser, served, width=900)
+    page = visit.open("index.html")
+    page.locator(".scroll").evaluate("box => box.scrollTo(0, 700)")
+    group = page.locator("thead .group").first.bounding_box()
+    column = page.locator("thead tr + tr th").first.bounding_box()
+    assert group is not None
+    assert column is not None
+    assert column["y"] == pytest.approx(group["y"] + group["height"], abs=1.5)
+    page.context.close()
+
+
+def test_an_interval_stands_below_its_score(visit: Visit) -> None:
+    """On its own line, in smaller type, flush with the number."""
+    page = visit.open("index.html")
+    cell = page.locator("tr#good td.number").first
+    score, interval = (cell.locator(part).bounding_box() for part in (".score", ".interval"))
+    assert score is not None
+    assert interval is not None
+    assert interval["y"] >= score["y"] + score["height"] - 4
+    assert interval["height"] < score["height"]
+    assert interval["x"] + interval["width"] == pytest.approx(score["x"] + score["width"], abs=1)
 
 
 def test_a_table_can_be_reached_and_scrolled_by_keyboard(visit: Visit) -> None:

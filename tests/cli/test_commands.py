@@ -167,13 +167,23 @@ class TestGrade:
         flags = [str(example.parent / flag) if flag == "second" else flag for flag in flags]
         run("grade", example, *flags, exit_code=2)
 
-    @pytest.mark.parametrize("hash_seed", ["0", "4242"])
-    def test_the_same_inputs_give_the_same_bytes(self, example: Path, root: Path, hash_seed: str) -> None:
-        """In fresh processes, whatever the seed of Python's hashes."""
+    @pytest.mark.parametrize(
+        "settings",
+        [
+            {"PYTHONHASHSEED": "0"},
+            {"PYTHONHASHSEED": "4242"},
+            {"OPENBLAS_CORETYPE": "Nehalem", "OPENBLAS_NUM_THREADS": "2"},
+            {"OPENBLAS_CORETYPE": "Haswell", "OPENBLAS_NUM_THREADS": "1"},
+        ],
+        ids=["hash-0", "hash-4242", "old-processor", "newer-processor"],
+    )
+    def test_the_same_inputs_give_the_same_bytes(
+        self, example: Path, root: Path, settings: dict[str, str]
+    ) -> None:
+        """In fresh processes, whatever the seed of Python's hashes and the kernels that multiply matrices."""
         committed = (example / "result.json").read_bytes()
         command = [sys.executable, "-m", "leaderboard", "--root", str(root), "grade", str(example)]
-        environment = os.environ | {"PYTHONHASHSEED": hash_seed}
-        subprocess.run(command, env=environment, check=True, capture_output=True)
+        subprocess.run(command, env=os.environ | settings, check=True, capture_output=True)
         assert (example / "result.json").read_bytes() == committed
 
 

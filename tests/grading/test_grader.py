@@ -12,7 +12,16 @@ from hypothesis import strategies as st
 
 from builders import build_reference, build_submission
 from leaderboard.errors import LeaderboardError
-from leaderboard.grading import METRICS, find_metric, grade, grade_people, result_bytes, subset_masks
+from leaderboard.grading import (
+    METRICS,
+    SUBSETS,
+    find_metric,
+    grade,
+    grade_people,
+    result_bytes,
+    subset_masks,
+)
+from leaderboard.grading.scopes import CROSSFIT_SUBSETS
 from leaderboard.models import Check, Result
 from leaderboard.reference import Reference
 
@@ -27,18 +36,22 @@ def _value(result: Result, metric: str, scope: str = "overall", subset: str = "a
 
 
 def test_scopes_and_subsets_are_those_of_the_contract() -> None:
-    """Overall and properties come on all, easy and hard trials, scenarios on all; each with every metric."""
+    """Overall and properties come on five subsets, scenarios on all; each with its metrics."""
     result = grade(build_submission(REFERENCE, [0.5] * REFERENCE.n_trials), REFERENCE)
     assert {scope: tuple(subsets) for scope, subsets in result.scores.items()} == {
-        "overall": ("all", "easy", "hard"),
-        "Alpha": ("all", "easy", "hard"),
+        "overall": SUBSETS,
+        "Alpha": SUBSETS,
         "alpha_one": ("all",),
         "alpha_two": ("all",),
-        "Beta": ("all", "easy", "hard"),
+        "Beta": SUBSETS,
         "beta_one": ("all",),
     }
-    names = [metric.name for metric in METRICS]
-    assert all(list(s.metrics) == names for subsets in result.scores.values() for s in subsets.values())
+    names = {subset: [metric.name for metric in METRICS] for subset in ("all", "easy", "hard")}
+    names |= {subset: ["accuracy", "human_r", "human_gap"] for subset in CROSSFIT_SUBSETS}
+    for subsets in result.scores.values():
+        assert {subset: list(scores.metrics) for subset, scores in subsets.items()} == {
+            s: names[s] for s in subsets
+        }
 
 
 def test_counts_are_of_trials_pairs_and_pairs_in_both() -> None:
@@ -104,7 +117,10 @@ def test_exchanging_yes_and_no_everywhere_changes_no_symmetric_score(probabiliti
         if metric.name == "yes_rate":
             assert value is not None
             assert twin == pytest.approx(1 - value, abs=2e-6)
-        elif metric.name != "ece":  # bins are open at one end, so values on their bounds change bins
+        elif metric.name not in (
+            "ece",
+            "human_ece",
+        ):  # bins are open at one end, so values on their bounds change bins
             assert twin == (value if value is None else pytest.approx(value, abs=2e-6))
 
 
@@ -311,6 +327,30 @@ def test_people_score_themselves_over_rated_trials() -> None:
     assert easy is not None
     assert hard is not None
     assert easy > hard
+
+
+def test_people_who_judged_one_property_only_leave_overall_undefined() -> None:
+    """What the other property lacks is a reason or left out; nothing fails."""
+    people = REFERENCE.people
+    assert people is not None
+    assert people.responses is not None
+    alpha = REFERENCE.in_property("Alpha")
+    r, kept = people.responses, alpha[people.responses.trials]
+    single = replace(r, participants=r.participants[kept], trials=r.trials[kept], answers=r.answers[kept])
+    half = replace(
+        REFERENCE,
+        people=replace(
+            people, n=np.where(alpha, people.n, 0), n_yes=np.where(alpha, people.n_yes, 0), responses=single
+        ),
+    )
+    result = grade(build_submission(half, np.linspace(0, 1, half.n_trials).tolist()), half)
+    assert set(result.scores["Alpha"]) == set(SUBSETS)
+    assert set(result.scores["overall"]) == set(result.scores["Beta"]) == {"all", "easy", "hard"}
+    assert result.scores["overall"]["all"].metrics["human_r"].why == "Beta: fewer than two rated trials"
+    scores = grade_people(half)
+    assert scores["Alpha"]["all"].metrics["split_half_r"].value is not None
+    assert "split_half_r" not in scores["overall"]["all"].metrics
+    assert scores["overall"]["all"].metrics["reliability"].value is None
 
 
 def test_an_unknown_metric_is_refused_by_name() -> None:

@@ -15,7 +15,8 @@ REFERENCE = build_reference(40, seed=3)
 
 
 def _observe(probabilities: np.ndarray) -> Observations:
-    return Observations.of(build_submission(REFERENCE, probabilities.tolist()), REFERENCE)
+    observations = Observations.of(build_submission(REFERENCE, probabilities.tolist()), REFERENCE)
+    return replace(observations, reliability=1.0)
 
 
 def test_the_table_holds_the_metrics_of_the_contract() -> None:
@@ -24,6 +25,7 @@ def test_the_table_holds_the_metrics_of_the_contract() -> None:
         "accuracy",
         "accuracy_p",
         "human_r",
+        "human_r_normalized",
         "human_r_partial",
         "human_rmse",
         "error_consistency",
@@ -33,6 +35,7 @@ def test_the_table_holds_the_metrics_of_the_contract() -> None:
         "auc",
         "brier",
         "ece",
+        "human_ece",
         "yes_rate",
         "human_gap",
     ]

@@ -1,5 +1,7 @@
 """Bootstrap draws that never change, and what is computed from them."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,8 +11,8 @@ from scipy import stats
 from leaderboard.metrics.resampling import (
     Interval,
     draw_weights,
+    on_grid,
     percentile_interval,
-    resample_correlation,
 )
 from leaderboard.metrics.undefined import Undefined
 
@@ -74,16 +76,11 @@ def test_interval_of_a_mean_equals_scipy_bootstrap(seed: int) -> None:
     assert (ours.low, ours.high) == pytest.approx((theirs.low, theirs.high), abs=0.006)
 
 
-@given(st.data())
-def test_correlation_of_a_resample_equals_that_of_the_repeated_trials(data: st.DataObject) -> None:
-    """A weight is nothing but repetition; without variance there is no correlation."""
-    values = st.sampled_from([0.0, 0.25, 0.5, 0.9])
-    size = data.draw(st.integers(2, 8))
-    x, y = (np.array(data.draw(st.lists(values, min_size=size, max_size=size))) for _ in range(2))
-    weights = np.array(data.draw(st.lists(st.integers(0, 3), min_size=size, max_size=size)))
-    found = resample_correlation(x, y, weights[None, :].astype(float))[0]
-    repeated_x, repeated_y = np.repeat(x, weights), np.repeat(y, weights)
-    if not repeated_x.size or np.ptp(repeated_x) == 0 or np.ptp(repeated_y) == 0:
-        assert np.isnan(found)
-    else:
-        assert found == pytest.approx(np.corrcoef(repeated_x, repeated_y)[0, 1], abs=1e-9)
+@given(st.lists(st.floats(-1, 1), min_size=1, max_size=50), st.permutations(range(50)))
+def test_sums_on_a_grid_do_not_depend_on_their_order(values: list[float], order: list[int]) -> None:
+    """Products of two numbers on the grid, weighted by whole numbers, add up exactly in any order."""
+    gridded = on_grid(np.array(values))
+    assert np.abs(gridded - values).max() <= 2.0**-21
+    terms = gridded * gridded[::-1] * np.arange(1, gridded.size + 1)
+    shuffled = terms[[i for i in order if i < terms.size]]
+    assert math.fsum(terms) == np.sum(terms) == np.sum(shuffled)

@@ -147,8 +147,28 @@ def ece(trials: Trials) -> Fraction:
     return total
 
 
+def human_ece(trials: Trials) -> Fraction | None:
+    """The same over rated trials, with the share of people who said YES for the label."""
+    rated = [t for t in trials if t.votes]
+    total = Fraction(0)
+    for number in range(1, 11):
+        low, high = (number - 1) / 10, number / 10
+        inside = [t for t in rated if low < t.q <= high or (number == 1 and t.q == 0)]
+        total += abs(sum((Fraction(t.q) - t.human_mean for t in inside), Fraction(0)))
+    return total / len(rated) if rated else None
+
+
 def yes_rate(trials: Trials) -> Fraction:
     return sum((_answer(t) for t in trials), Fraction(0)) / len(trials)
+
+
+RELIABILITY = 0.25
+"""That of the people, to hold the share of the ceiling against."""
+
+
+def human_r_normalized(trials: Trials) -> float | None:
+    r = human_r(trials)
+    return None if r is None else r / 0.5  # the square root of the reliability
 
 
 METRICS: dict[str, Callable[[Trials], Fraction | float | None]] = {
@@ -157,6 +177,7 @@ METRICS: dict[str, Callable[[Trials], Fraction | float | None]] = {
         accuracy,
         accuracy_p,
         human_r,
+        human_r_normalized,
         human_r_partial,
         human_rmse,
         human_gap,
@@ -167,6 +188,7 @@ METRICS: dict[str, Callable[[Trials], Fraction | float | None]] = {
         auc,
         brier,
         ece,
+        human_ece,
         yes_rate,
     )
 }

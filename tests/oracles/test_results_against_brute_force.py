@@ -1,5 +1,6 @@
 """Whole results against plain loops: every metric on every subset of every scope, overall included."""
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
 
@@ -8,6 +9,7 @@ import pytest
 
 from builders import build_reference, build_submission
 from leaderboard.grading import METRICS, grade, grade_people
+from leaderboard.grading.scopes import CROSSFIT_SUBSETS
 from leaderboard.models import Score
 from leaderboard.reference import Reference
 from oracles import brute_force
@@ -74,10 +76,35 @@ def test_a_result_equals_its_brute_force_twin(seed: int) -> None:
         (scope, subset, metric.name)
         for scope, subsets in grade(submission, reference).scores.items()
         for subset, scores in subsets.items()
+        if subset not in CROSSFIT_SUBSETS
         for metric in METRICS
+        if metric.name != "human_r_normalized"
         if not _agree(scores.metrics[metric.name], _expect(scopes, metric.name, scope, subset))
     ]
     assert different == []
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_share_of_the_ceiling_is_of_each_property(seed: int) -> None:
+    """Human r over the root of people's reliability, on whole properties; overall is their mean."""
+    reference, rng = build_reference(10, seed=seed, n_people=30), np.random.default_rng(seed)
+    result = grade(build_submission(reference, rng.random(reference.n_trials).tolist()), reference)
+    people = grade_people(reference)
+    shares = []
+    for name in ("Alpha", "Beta"):
+        r = result.scores[name]["all"].metrics["human_r"].value
+        reliability = people[name]["all"].metrics["reliability"].value
+        assert r is not None
+        assert reliability is not None
+        shares.append(r / math.sqrt(reliability))
+        assert result.scores[name]["all"].metrics["human_r_normalized"].value == pytest.approx(
+            shares[-1], abs=1e-5
+        )
+        assert people[name]["all"].metrics["ceiling"].value == pytest.approx(math.sqrt(reliability), abs=1e-5)
+    overall = result.scores["overall"]["all"].metrics["human_r_normalized"]
+    assert overall.value == pytest.approx(np.mean(shares), abs=1e-5)
+    for scope, subset in (("Alpha", "easy"), ("alpha_one", "all")):
+        assert result.scores[scope][subset].metrics["human_r_normalized"].why is not None
 
 
 @pytest.mark.parametrize("seed", SEEDS)

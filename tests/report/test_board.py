@@ -11,12 +11,8 @@ from builders import build_entry, build_reference
 from leaderboard.grading import grade_people
 from leaderboard.ranking import Board, rank_entries
 from leaderboard.reference import Reference
-from leaderboard.report.board import (
-    render_board,
-    render_board_csv,
-    render_board_json,
-    render_board_latex,
-)
+from leaderboard.report.board import render_board, render_board_csv, render_board_json
+from leaderboard.report.latex import render_board_latex
 from leaderboard.report.terminal import Terminal
 
 

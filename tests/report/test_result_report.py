@@ -30,10 +30,16 @@ def _render(reference: Reference, probabilities: list[float], **arguments: objec
 def test_people_stand_beside_the_model(reference: Reference) -> None:
     """Each row has the model's accuracy, people's on the same trials, and the gap between them."""
     text = _render(reference, np.where(reference.labels == 1, 0.9, 0.1).tolist())
-    people = grade_people(reference)["overall"]["all"].metrics["accuracy"].value
-    assert people is not None
+    people = grade_people(reference)["overall"]["all"].metrics["accuracy"]
+    assert people.value is not None
+    assert people.low is not None
+    assert people.high is not None
     row = next(line for line in text.splitlines() if line.strip().startswith("overall"))
-    assert row.split()[:5] == ["overall", "24", "100.0*", f"{100 * people:.1f}", f"{100 * (1 - people):+.1f}"]
+    assert row.split()[:10] == [
+        *("overall", "24", "100.0*", "100.0", "to", "100.0", f"{100 * people.value:.1f}"),
+        *(f"{100 * people.low:.1f}", "to", f"{100 * people.high:.1f}"),
+    ]
+    assert f"{100 * (1 - people.value):+.1f} ▲" in row
     assert "▲" in row
 
 

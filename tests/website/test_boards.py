@@ -1,6 +1,7 @@
 """The page of a board: who stands where, with which numbers."""
 
 import json
+import re
 from dataclasses import replace
 from xml.etree.ElementTree import Element
 
@@ -10,9 +11,17 @@ import pytest
 from builders import build_entry, build_reference
 from leaderboard.website.boards import compose_board
 from leaderboard.website.material import Material
-from leaderboard.website.numbers import ABSENT, MINUS
+from leaderboard.website.numbers import ABSENT, EN_DASH, MINUS, name_p, show_points
 from leaderboard.website.pages import BoardPage
-from site_builders import build_entries, build_material, parse_html, render_files, text_of
+from site_builders import (
+    build_entries,
+    build_material,
+    interval_of,
+    parse_html,
+    render_files,
+    score_of,
+    text_of,
+)
 
 COLUMNS = [
     ("accuracy", "overall", "all"),
@@ -21,6 +30,7 @@ COLUMNS = [
     ("accuracy", "overall", "easy"),
     ("accuracy", "overall", "hard"),
     ("human_r", "overall", "all"),
+    ("human_r_normalized", "overall", "all"),
     ("pair_accuracy", "overall", "all"),
 ]
 
@@ -67,8 +77,8 @@ def test_equal_scores_share_a_rank_and_others_have_none(page: BoardPage) -> None
 def test_badges_say_in_words_what_differs(page: BoardPage) -> None:
     """State as input, open checks, partial coverage and baselines are marked by words, not by colour."""
     badges = {row.slug: row.badges for section in page.sections for row in section.rows}
-    assert badges["good"] == ("ground-truth state as input",)
-    assert badges["good-too"] == ("see its checks",)
+    assert badges["good"] == ("among the best", "ground-truth state as input")
+    assert badges["good-too"] == ("among the best", "see its checks")
     assert badges["part"] == ("partial",)
     assert badges["oracle"] == ("baseline",)
     assert badges["hostile"] == ()
@@ -83,35 +93,165 @@ def test_partial_rows_say_what_they_cover(page: BoardPage) -> None:
 
 
 def test_every_number_is_that_of_the_api(index: Element, files: dict[str, bytes]) -> None:
-    """What a cell prints is its exact value rounded, and that is what the API holds."""
+    """What a cell prints is its exact value and interval rounded, and that is what the API holds."""
     for row in json.loads(files["api/leaderboard.json"])["tracks"][0]["rows"]:
-        cells = numbers_of(row_of(index, row["slug"]))
+        *cells, gain = numbers_of(row_of(index, row["slug"]))
         assert len(cells) == len(COLUMNS)
         for cell, (metric, scope, subset) in zip(cells, COLUMNS, strict=True):
             score = row["result"]["scores"].get(scope, {}).get(subset, {}).get(metric, {"value": None})
-            assert_printed(cell, metric, score["value"])
+            assert_printed(cell, metric, score)
+        assert_printed(gain, "property_gain", row.get("property_gain", {"value": None}))
 
 
-def assert_printed(cell: Element, metric: str, value: float | None) -> None:
-    if value is None:
+def assert_printed(cell: Element, metric: str, score: dict[str, float | None]) -> None:
+    if score["value"] is None:
         assert text_of(cell).startswith(ABSENT)
         assert cell.get("data-value") is None
         return
-    assert float(cell.get("data-value", "nan")) == value
-    factor, half_a_digit = (1, 0.0005) if metric == "human_r" else (100, 0.05)
-    printed = float(text_of(cell).replace(MINUS, "-"))
-    assert abs(printed - factor * value) <= half_a_digit + 1e-9
+    exact = [cell.get(f"data-{part}", "nan") for part in ("value", "low", "high")]
+    assert [float(number) for number in exact] == [score[part] for part in ("value", "low", "high")]
+    assert cell.get("title", "").startswith(f"{exact[0]}, 95 % interval {exact[1]} to {exact[2]}")
+    low, high = re.split(f" to |{EN_DASH}", interval_of(cell))
+    factor, half_a_digit = (1, 0.0005) if metric.startswith("human_r") else (100, 0.05)
+    for printed, number in zip((score_of(cell), low, high), exact, strict=True):
+        shown = float(printed.replace(MINUS, "-"))
+        assert abs(shown - factor * float(number)) <= half_a_digit + 1e-9
 
 
 def test_people_are_pinned_with_their_own_scores(index: Element, files: dict[str, bytes]) -> None:
-    """The row of people has their accuracy, and a dash for what makes no sense for them."""
+    """The row of people has their accuracy with intervals, and a dash for what makes no sense for them."""
     people = json.loads(files["api/leaderboard.json"])["people"]
     (body,) = [body for body in index.iter("tbody") if body.get("class") == "people"]
-    cells = numbers_of(body)
+    *cells, gain = numbers_of(body)
     for cell, (metric, scope, subset) in zip(cells, COLUMNS, strict=True):
-        assert_printed(cell, metric, people[scope][subset].get(metric, {"value": None})["value"])
+        own = "ceiling" if metric == "human_r" else metric
+        assert_printed(cell, metric, people[scope][subset].get(own, {"value": None}))
     assert "not computed for people" in text_of(cells[-1])
+    assert "not computed for people" in text_of(gain)
     assert "12 people, 144 responses" in text_of(body)
+    assert [link.get("href") for link in body.iter("a")] == ["method.html#people"]
+
+
+def test_people_have_their_ceiling_where_others_have_their_r(index: Element) -> None:
+    """It says so below the number: no correlation can be expected above it."""
+    (body,) = [body for body in index.iter("tbody") if body.get("class") == "people"]
+    remarks = [remark_of(cell) for cell in numbers_of(body)]
+    place = COLUMNS.index(("human_r", "overall", "all"))
+    assert remarks == ["ceiling" if index == place else "" for index in range(len(remarks))]
+
+
+def remark_of(cell: Element) -> str:
+    return "".join(text_of(part) for part in cell.iter() if part.get("class") == "remark")
+
+
+def test_every_rank_stands_with_its_rank_set(page: BoardPage, index: Element, material: Material) -> None:
+    """The ranks that it could be as well, below it and named for a screen reader; nothing without a rank."""
+    ranks = {row.slug: row.ranks for section in page.sections for row in section.rows}
+    for row in material.boards[0].rows:
+        standing = row.standing
+        expected = f"{standing.low}{EN_DASH}{standing.high}" if standing else ""
+        assert ranks[row.entry.slug] == expected
+    assert ranks["good"] == f"1{EN_DASH}2"
+    (rank,) = [cell for cell in row_of(index, "good").iter("td") if cell.get("class") == "rank"]
+    assert text_of(rank) == f"1 rank set 1{EN_DASH}2"
+
+
+def test_only_who_stands_out_is_called_the_best() -> None:
+    """One submission ahead of all others is the best; alone on its board it is nothing of the kind."""
+    reference = build_reference(pairs_per_scenario=8)
+    right = np.where(reference.labels == 1, 0.9, 0.1)
+    first = build_entry(reference, "first", right.tolist())
+    second = build_entry(reference, "second", (1 - right).tolist())
+    badges = []
+    for entries in ([first, second], [first]):
+        material = build_material(reference, entries)
+        sections = compose_board(material.boards[0], material).sections
+        badges.append([row.badges for section in sections for row in section.rows if row.slug])
+    assert badges == [[("the best",), ()], [()]]
+
+
+def test_a_gain_stands_with_its_p(index: Element, files: dict[str, bytes]) -> None:
+    """What a system gains from inferring properties, with the exact p; else why there is nothing."""
+    rows = {row["slug"]: row for row in json.loads(files["api/leaderboard.json"])["tracks"][0]["rows"]}
+    gain = numbers_of(row_of(index, "good"))[-1]
+    assert score_of(gain) == show_points(rows["good"]["property_gain"]["value"])
+    assert remark_of(gain) == name_p(rows["good"]["property_gain"]["p"])
+    assert "not tested both with and without property inference" in text_of(
+        numbers_of(row_of(index, "hostile"))[-1]
+    )
+
+
+def test_without_any_gain_there_is_no_column_of_gains() -> None:
+    """Nor a remark that explains it."""
+    reference = build_reference()
+    material = build_material(reference, [build_entry(reference, "one", [0.7] * 24)])
+    page = compose_board(material.boards[0], material)
+    assert "Property gain" not in [column.title for group in page.groups for column in group.columns]
+    assert "Gain" not in [fact.title for fact in page.remarks]
+
+
+def test_remarks_say_how_sure_the_numbers_are(page: BoardPage, material: Material) -> None:
+    """How intervals and rank sets are made, and what so few trials can tell, in numbers."""
+    remarks = {fact.title: fact.text for fact in page.remarks}
+    assert list(remarks) == [
+        *("How sure", "Rank set", "Best", "Detectable", "Gain", "Ceiling", "Easy", "Hard", "Caution"),
+    ]
+    assert remarks["How sure"] == (
+        "Below each score stands its 95 % interval: percentile bootstrap over pairs of trials within "
+        "scenarios and, where their answers matter, people, 200 resamples, the same for all submissions."
+    )
+    detectable = material.boards[0].detectable
+    assert isinstance(detectable, float)
+    assert remarks["Detectable"].startswith(f"A difference of {100 * detectable:.1f} points ")
+
+
+def test_remarks_measure_the_selection() -> None:
+    """People's accuracy on trials that they chose themselves stands beside that of others."""
+    material = build_material(build_reference(pairs_per_scenario=16), [])
+    subsets = ("easy", "hard", "easy_crossfit", "hard_crossfit")
+    scores = [material.people_score("accuracy", "overall", subset) for subset in subsets]
+    easy, hard, easy_crossfit, hard_crossfit = (f"{100 * s.value:.1f}" for s in scores if s and s.value)
+    assert (
+        f"than they are: {easy} % on easy and {hard} % on hard trials, but {easy_crossfit} % and "
+        f"{hard_crossfit} % where one half of the people chooses and the other half is measured"
+    ) in remarks_of(material)["Caution"]
+
+
+def remarks_of(material: Material) -> dict[str, str]:
+    return {fact.title: fact.text for fact in compose_board(material.boards[0], material).remarks}
+
+
+def test_without_measurable_selection_the_caution_has_no_numbers(material: Material) -> None:
+    """If people have no accuracy on hard trials, there is nothing to put beside each other."""
+    assert "worse on hard trials than they are. The accuracy" in remarks_of(material)["Caution"]
+
+
+def test_without_responses_nothing_is_measured_across_people() -> None:
+    """The caution stays, without numbers, and nobody is said to be drawn."""
+    material = build_material(build_reference(responses=False), [])
+    remarks = remarks_of(material)
+    assert "worse on hard trials than they are. The accuracy" in remarks["Caution"]
+    assert "people" not in remarks["How sure"]
+    assert "Rank set" not in remarks
+
+
+def test_resamples_without_a_value_are_told_of(index: Element, material: Material) -> None:
+    """An interval that leaves some out has a footnote with their number, and the exact one on the cell."""
+    cell = numbers_of(row_of(index, "good"))[COLUMNS.index(("accuracy", "overall", "easy"))]
+    (entry,) = [p.entry for p in material.publications if p.entry.slug == "good"]
+    score = entry.score("accuracy", "overall", "easy")
+    assert score is not None
+    n_undefined = score.undefined_resamples
+    assert n_undefined
+    assert cell.get("title", "").endswith(f", {n_undefined} resamples without a value")
+    note = f"resamples without a value are left out of the interval, {n_undefined} at most"
+    assert footnote_of(cell, index) == note
+    assert "some resamples left out" in text_of(cell)
+
+
+def footnote_of(cell: Element, page: Element) -> str:
+    (notes,) = [notes for notes in page.iter("ol") if notes.get("class") == "footnotes"]
+    return text_of(list(notes)[int(next(cell.iter("sup")).text or 0) - 1])
 
 
 def test_a_dash_tells_why_in_text_and_below_the_table(index: Element) -> None:
@@ -120,9 +260,7 @@ def test_a_dash_tells_why_in_text_and_below_the_table(index: Element) -> None:
     (mark,) = dash.iter("abbr")
     assert mark.get("title") == "undefined: all probabilities are equal"
     assert "undefined: all probabilities are equal" in text_of(dash)
-    (notes,) = [notes for notes in index.iter("ol") if notes.get("class") == "footnotes"]
-    number = int(next(dash.iter("sup")).text or 0)
-    assert text_of(list(notes)[number - 1]) == "undefined: all probabilities are equal"
+    assert footnote_of(dash, index) == "undefined: all probabilities are equal"
 
 
 def test_headings_say_how_much_is_behind_a_column(index: Element, material: Material) -> None:
@@ -136,7 +274,9 @@ def test_headings_say_how_much_is_behind_a_column(index: Element, material: Mate
         f"Easy {easy} trials",
         f"Hard {hard} trials",
         "Human r 24 trials",
+        "Share of ceiling 24 trials",
         "Both right 12 pairs",
+        "Property gain 24 trials",
     ]
 
 
@@ -186,7 +326,8 @@ def test_a_reference_without_people_and_pairs_has_fewer_columns() -> None:
     page = compose_board(material.boards[0], material)
     assert [column.title for group in page.groups for column in group.columns] == ["Overall", "Alpha", "Beta"]
     assert "people" not in names_by_section(page)
-    assert [fact.title for fact in page.remarks] == ["How sure"]
+    assert [fact.title for fact in page.remarks] == ["How sure", "Rank set", "Best"]
+    assert "over trials within scenarios" in page.remarks[0].text
     assert "pairs" not in page.summary
     assert "people" not in page.summary
 

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from builders import build_reference
-from leaderboard.grading import METRICS
+from leaderboard.grading import METRICS, SUBSETS
 from leaderboard.website.exports import reference_data, render_csv
 from leaderboard.website.material import Material
 from site_builders import HOSTILE_NAME, HOSTILE_TEAM, build_material
@@ -41,13 +41,27 @@ def test_the_table_has_one_row_per_submission(
 def test_the_table_has_every_metric_overall_and_by_property(
     rows: dict[str, dict[str, str]], material: Material
 ) -> None:
-    """Values are those of the results with all digits; what is undefined or absent is empty."""
+    """Values and intervals are those of the results with all digits; what is undefined or absent is empty."""
     for publication in material.publications:
+        row = rows[publication.entry.slug]
         for metric in METRICS:
             for scope in ("overall", "Alpha", "Beta"):
                 score = publication.entry.score(metric.name, scope)
-                expected = "" if score is None or score.value is None else str(score.value)
-                assert rows[publication.entry.slug][f"{metric.name}.{scope}"] == expected
+                name = f"{metric.name}.{scope}"
+                found = {
+                    key: value for key, value in row.items() if key in (name, f"{name}.low", f"{name}.high")
+                }
+                assert list(found) == ([name] if metric.is_p_value else [name, f"{name}.low", f"{name}.high"])
+                ends = [score.value, score.low, score.high] if score else [None] * 3
+                assert [*found.values()] == ["" if end is None else str(end) for end in ends][: len(found)]
+
+
+def test_the_table_has_rank_sets(rows: dict[str, dict[str, str]]) -> None:
+    """Beside the rank, the ranks that it could be as well; empty where there is none."""
+    sets = {slug: (row["rank"], row["rank_low"], row["rank_high"]) for slug, row in rows.items()}
+    assert sets["good"] == ("1", "1", "2")
+    assert sets["hostile"] == ("3", "3", "3")
+    assert sets["part"] == sets["oracle"] == sets["nowhere"] == ("", "", "")
 
 
 def test_the_table_cannot_run_in_a_spreadsheet(rows: dict[str, dict[str, str]]) -> None:
@@ -95,6 +109,41 @@ def test_the_board_file_holds_every_track_and_row(files: dict[str, bytes]) -> No
     assert data["people"]["overall"]["all"]["n_rated"] == 24
 
 
+def test_the_board_file_says_how_sure_ranks_are(files: dict[str, bytes], material: Material) -> None:
+    """Rank sets, probabilities of being best, gains, and what can be detected; also in each one's file."""
+    with_, without = json.loads(files["api/leaderboard.json"])["tracks"]
+    assert with_["detectable_difference"] == {"value": material.boards[0].detectable}
+    assert without["detectable_difference"] == {
+        "value": None,
+        "why": "there are fewer than two different systems",
+    }
+    rows = {row["slug"]: row for row in with_["rows"]}
+    assert (rows["good"]["rank_set"], rows["good"]["best_probability"]) == ([1, 2], 0.5)
+    assert (rows["good"]["among_best"], rows["hostile"]["among_best"]) == (True, False)
+    assert rows["good"]["property_gain"]["without"] == "other-track"
+    assert "rank_set" not in rows["part"]
+    own = json.loads(files["api/submissions/good.json"])
+    sure = ("rank_set", "best_probability", "among_best", "property_gain")
+    assert {key: own[key] for key in sure} == {key: rows["good"][key] for key in sure}
+
+
+def test_people_are_there_with_their_reliability(files: dict[str, bytes]) -> None:
+    """How well they agree, by property and overall, with intervals."""
+    people = json.loads(files["api/leaderboard.json"])["people"]
+    for scope in ("overall", "Alpha", "Beta"):
+        for name in ("split_half_r", "reliability", "reliability_from_counts", "ceiling"):
+            assert list(people[scope]["all"][name]) == ["value", "low", "high"]
+    assert list(people["overall"]) == list(SUBSETS)
+
+
+def test_an_unbounded_range_is_null(files: dict[str, bytes]) -> None:
+    """JSON knows no infinity."""
+    metrics = {m["name"]: m for m in json.loads(files["api/leaderboard.json"])["metrics"]}
+    assert (metrics["human_r_normalized"]["low"], metrics["human_r_normalized"]["high"]) == (None, None)
+    assert (metrics["accuracy"]["low"], metrics["accuracy"]["high"]) == (0, 1)
+    assert b"Infinity" not in files["api/leaderboard.json"]
+
+
 def test_the_reference_is_described_without_its_labels(files: dict[str, bytes]) -> None:
     """Identity and sizes; nothing that could be learnt from."""
     data = json.loads(files["api/reference.json"])
@@ -119,4 +168,4 @@ def test_an_empty_board_has_an_empty_table() -> None:
     """The header stays."""
     lines = render_csv(build_material(entries=[])).splitlines()
     assert len(lines) == 1
-    assert lines[0].startswith("track,rank,kind,slug,name,")
+    assert lines[0].startswith("track,rank,rank_low,rank_high,kind,slug,name,")

@@ -3,9 +3,12 @@
 import datetime as dt
 from xml.etree import ElementTree as ET
 
+import numpy as np
+
 from builders import build_entry, build_reference
 from leaderboard.website.feeds import compose_feed
 from leaderboard.website.material import Material
+from leaderboard.website.numbers import EN_DASH
 from leaderboard.website.rendering import render_feed
 from site_builders import HOSTILE_NAME, HOSTILE_TEXT, build_material, render_files
 
@@ -46,6 +49,17 @@ def test_hostile_text_stays_text(files: dict[str, bytes]) -> None:
     ]
     assert HOSTILE_TEXT in (item.findtext(f"{ATOM}summary") or "")
     assert [child.tag for child in item if child.tag.endswith("script")] == []
+
+
+def test_accuracy_comes_with_its_interval() -> None:
+    """Also news say how sure a number is."""
+    reference = build_reference()
+    entry = build_entry(reference, "one", np.where(reference.labels == 1, 0.9, 0.4).tolist())
+    partial = build_entry(reference, "two", [0.6] * 24, covered=(reference.properties == 1).tolist())
+    feed = compose_feed(build_material(reference, [entry, partial]))
+    summaries = {item.slug: item.summary for item in feed.entries}
+    assert summaries["one"] == f"Accuracy 100.0 % (100.0{EN_DASH}100.0). A test."
+    assert summaries["two"] == "(partial) A test."
 
 
 def test_newest_first_and_no_clock() -> None:

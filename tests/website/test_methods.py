@@ -7,17 +7,19 @@ from leaderboard.grading import METRICS
 from leaderboard.website.material import Material
 from leaderboard.website.methods import compose_method
 from leaderboard.website.numbers import ABSENT, MINUS
+from leaderboard.website.quantities import OF_BOARDS, OF_PEOPLE, Described
 from site_builders import build_material, parse_html, text_of
 
 
 def test_every_metric_is_explained(files: dict[str, bytes]) -> None:
-    """Each metric has a row that links can point at, with its meaning."""
+    """Each metric, and each number beside them, has a row that links can point at, with its meaning."""
     rows = {
         row.get("id"): text_of(row) for row in parse_html(files["method.html"]).iter("tr") if row.get("id")
     }
-    assert list(rows) == [metric.name for metric in METRICS]
-    for metric in METRICS:
-        assert " ".join(metric.meaning.split()) in rows[metric.name]
+    explained: tuple[Described, ...] = (*METRICS, *OF_BOARDS, *OF_PEOPLE)
+    assert list(rows) == [quantity.name for quantity in explained]
+    for quantity in explained:
+        assert " ".join(quantity.meaning.split()) in rows[quantity.name]
 
 
 @pytest.mark.parametrize(
@@ -28,13 +30,18 @@ def test_every_metric_is_explained(files: dict[str, bytes]) -> None:
         ("brier", "lower is better", "0 to 1", "0.25"),
         ("yes_rate", "neither end is better", "0 % to 100 %", "50 %"),
         ("ece", "lower is better", "0 to 1", ABSENT),
+        ("human_r_normalized", "higher is better", "unbounded", "0"),
+        ("human_ece", "lower is better", "0 to 1", ABSENT),
+        ("best_probability", "higher is better", "0 % to 100 %", ABSENT),
+        ("reliability", "neither end is better", "at most 1", "0"),
     ],
 )
 def test_direction_range_and_chance(
     material: Material, name: str, direction: str, range_: str, chance: str
 ) -> None:
     """They are printed in the metric's own unit."""
-    (entry,) = [metric for metric in compose_method(material).metrics if metric.name == name]
+    page = compose_method(material)
+    (entry,) = [metric for metric in (*page.metrics, *page.others) if metric.name == name]
     assert (entry.direction, entry.range, entry.chance) == (direction, range_, chance)
 
 
@@ -45,3 +52,52 @@ def test_easy_and_hard_are_explained_only_where_there_are_people(material: Mater
     assert terms["Hard"].endswith("by fewer than 1/3 of the people.")
     lonely = compose_method(build_material(build_reference(n_people=0), []))
     assert {"Easy", "Hard"}.isdisjoint(term.title for term in lonely.terms)
+    counted = compose_method(build_material(build_reference(responses=False), []))
+    assert "Easy, cross-fitted" in terms
+    assert "Easy" in [term.title for term in counted.terms]
+    assert "Easy, cross-fitted" not in [term.title for term in counted.terms]
+
+
+def test_terms_say_how_sure_numbers_are(material: Material) -> None:
+    """How intervals are made, and that people of cross-fitted subsets are not drawn."""
+    terms = {term.title: term.text for term in compose_method(material).terms}
+    assert "percentile bootstrap over pairs of trials within scenarios" in terms["Interval"]
+    assert terms["Interval"].endswith("nobody may be in both halves.")
+    assert {"Rank set", "Among the best"} <= terms.keys()
+
+
+def test_people_have_a_table_of_their_own(material: Material) -> None:
+    """How often they are right on each subset, and how well they agree, with intervals, by property."""
+    table = compose_method(material).people
+    assert table is not None
+    assert [row.title for row in table.rows] == ["Overall", "Alpha", "Beta"]
+    assert [column.title for column in table.columns] == [
+        *("Accuracy", "Easy", "Hard", "Easy, cross-fitted", "Hard, cross-fitted", "YES rate"),
+        *("Split-half r", "Reliability", "Reliability from counts", "Ceiling of human r"),
+    ]
+    ceiling = material.people_score("ceiling", "Beta", "all")
+    assert ceiling is not None
+    cell = table.rows[2].cells[-1]
+    assert [float(number) for number in (cell.exact, *cell.ends)] == [
+        ceiling.value,
+        ceiling.low,
+        ceiling.high,
+    ]
+
+
+def test_people_have_only_what_is_known_of_them() -> None:
+    """Without single responses there are no halves; without human data there is no table."""
+    counted = compose_method(build_material(build_reference(responses=False), [])).people
+    assert counted is not None
+    assert [column.title for column in counted.columns] == [
+        *("Accuracy", "Easy", "Hard", "YES rate", "Reliability", "Ceiling of human r"),
+    ]
+    lonely = compose_method(build_material(build_reference(n_people=0), []))
+    assert lonely.people is None
+    assert "ceiling" not in [entry.name for entry in lonely.others]
+
+
+def test_nothing_is_promised_for_later(files: dict[str, bytes]) -> None:
+    """What is not there is not spoken of; only a board may wait for its first submission."""
+    found = {path for path, content in files.items() if path.endswith(".html") and b" yet" in content}
+    assert found == set()

@@ -1,5 +1,8 @@
 """How scores are printed, and where a dash explains itself."""
 
+from dataclasses import replace
+from math import inf
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -8,6 +11,7 @@ from leaderboard.grading import METRICS, find_metric
 from leaderboard.models import Score
 from leaderboard.website.numbers import (
     ABSENT,
+    EN_DASH,
     GAPS,
     MINUS,
     SHARES,
@@ -15,14 +19,18 @@ from leaderboard.website.numbers import (
     printer_of,
     show_bound,
     show_exactly,
+    show_interval,
     show_p,
+    show_range,
     unit_of,
 )
+from leaderboard.website.quantities import OF_BOARDS, OF_PEOPLE, Described, find_quantity
 
 
 def test_every_metric_named_here_is_in_the_table_of_metrics() -> None:
-    """The lists of shares and gaps do not outlive a metric."""
-    assert {*SHARES, *GAPS} <= {metric.name for metric in METRICS}
+    """The lists of shares and gaps do not outlive a metric or another number that is printed."""
+    printed: tuple[Described, ...] = (*METRICS, *OF_PEOPLE, *OF_BOARDS)
+    assert {*SHARES, *GAPS} <= {quantity.name for quantity in printed}
 
 
 @pytest.mark.parametrize(
@@ -83,3 +91,56 @@ def test_a_missing_value_gets_the_number_of_its_reason() -> None:
     assert footnotes.texts == ("undefined: all probabilities are equal", "not covered")
     assert (first.text, first.exact) == (ABSENT, "")
     assert (value.text, value.exact, value.why) == ("0.500", "0.500000", "")
+
+
+@pytest.mark.parametrize(
+    ("metric", "low", "high", "text"),
+    [
+        ("accuracy", 0.613281, 0.671908, f"61.3{EN_DASH}67.2"),
+        ("human_gap", 0.009313, 0.072104, "+0.9 to +7.2"),
+        ("human_r", 0.213076, 0.369143, f"0.213{EN_DASH}0.369"),
+        ("human_r", -0.05, 0.16, f"{MINUS}0.050 to 0.160"),
+        ("human_r", -0.0001, 0.16, f"0.000{EN_DASH}0.160"),
+    ],
+)
+def test_an_interval_is_printed_as_its_value_is(metric: str, low: float, high: float, text: str) -> None:
+    """A dash joins the ends only where no sign stands before one of them."""
+    assert show_interval(find_metric(metric), Score(value=low, low=low, high=high)) == text
+
+
+def test_what_has_no_interval_shows_none() -> None:
+    """A p-value, an undefined score and one that is not there."""
+    scores = (Score(value=0.01), Score(value=None, why="no trial"), None)
+    assert [show_interval(find_metric("accuracy_p"), score) for score in scores] == ["", "", ""]
+    assert Footnotes().cell(find_metric("accuracy_p"), scores[0], absent="").ends == ()
+
+
+def test_a_cell_tells_its_interval_with_all_digits() -> None:
+    """For a pointer that rests on it, and for programs that read the page."""
+    score = Score(value=0.643229, low=0.613281, high=0.671908)
+    cell = Footnotes().cell(find_metric("accuracy"), score, absent="")
+    assert cell.ends == ("0.613281", "0.671908")
+    assert cell.title == "0.643229, 95 % interval 0.613281 to 0.671908"
+    assert (cell.note, cell.n_undefined) == (0, 0)
+
+
+def test_one_footnote_tells_of_all_resamples_without_a_value() -> None:
+    """It has their largest number; each cell keeps its own."""
+    footnotes, metric = Footnotes(), find_metric("human_r")
+    cells = [
+        footnotes.cell(
+            metric, Score(value=0.5, low=0.1, high=0.9, undefined_resamples=n or None), absent="not covered"
+        )
+        for n in (3, 0, 1200, 40)
+    ]
+    assert [cell.note for cell in cells] == [1, 0, 1, 1]
+    assert footnotes.texts == ("resamples without a value are left out of the interval, 1,200 at most",)
+    assert cells[2].title.endswith(", 1,200 resamples without a value")
+
+
+def test_a_range_without_ends_is_unbounded() -> None:
+    """Infinity is no number that a reader would look for."""
+    assert show_range(find_metric("human_r_normalized")) == "unbounded"
+    assert show_range(find_quantity("reliability")) == "at most 1"
+    assert show_range(replace(find_quantity("ceiling"), high=inf)) == "at least 0"
+    assert show_range(find_quantity("property_gain")) == f"{MINUS}100 points to 100 points"

@@ -13,6 +13,7 @@ import pytest
 from jinja2 import UndefinedError
 
 from builders import build_reference
+from leaderboard.grading import METRICS_VERSION
 from leaderboard.website.rendering import environment
 from site_builders import (
     HOSTILE_NAME,
@@ -118,7 +119,7 @@ def test_the_footer_says_what_the_numbers_are_made_with(pages: dict[str, Element
         footer = text_of(next(page.iter("footer")))
         assert "Tiny 1" in footer
         assert "0" * 64 in footer
-        assert "metrics version 1" in footer
+        assert f"metrics version {METRICS_VERSION}" in footer
 
 
 def resolve(path: str, target: str) -> str:
