@@ -224,7 +224,8 @@ def test_gain_is_that_of_comparing_the_two(large: Reference) -> None:
     )
     other_training = build_entry(large, "zero", good, testing="without_property", training="zero_shot")
     yardstick = Yardstick.of(large)
-    gains = find_gains([with_it, old, new, other_team, other_training], yardstick)
+    everybody = [with_it, old, new, other_team, other_training]
+    gains = find_gains(everybody, everybody, yardstick)
     assert set(gains) == {"with-it"}
     expected = compare(build_submission(large, good), build_submission(large, bad), large).scopes[0]
     found = gains["with-it"]

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import click
 
-from leaderboard.assessing import assess
 from leaderboard.cli.location import Location, current_terminal, today
 from leaderboard.comparing import compare
 from leaderboard.errors import LeaderboardError
@@ -13,6 +12,7 @@ from leaderboard.instance import Instance
 from leaderboard.reference import Reference
 from leaderboard.report.comparison import render_comparison, render_comparison_json
 from leaderboard.submission import Submission, read_any
+from leaderboard.validation import validate
 
 
 @click.command("compare")
@@ -44,7 +44,7 @@ def _load(instance: Instance, reference: Reference, name: str) -> Submission:
         hint = f"did you mean {near}?" if near else "give a slug, a submission's folder or a predictions file"
         raise LeaderboardError(f"there is no submission {name!a}", hint)
     location = instance.display_path(path)
-    assessment = assess(read_any(path, location), reference, today=today())
-    if assessment.submission is None:
+    submission = validate(read_any(path, location), reference, today=today()).submission
+    if submission is None:
         raise LeaderboardError(f"{location} is not valid", f"see: leaderboard validate {location}")
-    return assessment.submission
+    return submission

@@ -66,16 +66,16 @@ def find_strata(reference: Reference) -> Integers:
 def find_sets(responses: Responses, reference: Reference) -> Integers:
     """Number the sets of people who saw the same trials, shape (n_participants,).
 
-    Where all people of a property saw different trials, they are one set.
+    Where all people of a property saw different trials, they are one set; so are those who saw none.
     """
-    seen: dict[int, list[int]] = {}
+    seen: dict[int, list[int]] = {person: [] for person in range(len(responses.participant_ids))}
     for person, trial in zip(responses.participants.tolist(), responses.trials.tolist(), strict=True):
-        seen.setdefault(person, []).append(trial)
-    properties = {person: int(reference.properties[trials[0]]) for person, trials in seen.items()}
+        seen[person].append(trial)
+    properties = {p: int(reference.properties[trials[0]]) if trials else -1 for p, trials in seen.items()}
     keys = {person: (properties[person], tuple(sorted(trials))) for person, trials in seen.items()}
     for index in set(properties.values()):
         members = [person for person in seen if properties[person] == index]
         if len({keys[person] for person in members}) == len(members):
             keys |= dict.fromkeys(members, (index, ()))
     numbers = {key: number for number, key in enumerate(sorted(set(keys.values())))}
-    return np.array([numbers[keys[person]] for person in range(len(responses.participant_ids))])
+    return np.array([numbers[keys[person]] for person in seen], np.int64)

@@ -23,8 +23,8 @@ def resample_cell(
 
     Pairs are drawn within scenarios, and with them every sum is computed anew. People are drawn within the
     sets that saw the same trials; what they move is added to first order (the infinitesimal jackknife of
-    Jaeckel 1972), since drawing people and trials at once would count the noise of single answers twice
-    (Owen 2007). For the two kappas, which are averages over people, trials enter to first order as well.
+    Jaeckel 1972), less what drawing trials accounts for already (``gather_people``). For the two kappas,
+    which are averages over people, trials enter to first order as well.
 
     Returns
     -------

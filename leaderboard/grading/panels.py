@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from leaderboard.grading.draws import SPLIT_STREAM, find_sets
-from leaderboard.metrics.accuracy import Booleans
+from leaderboard.metrics.accuracy import Booleans, Integers
 from leaderboard.metrics.crossfit import CrossFit, cross_fit
 from leaderboard.metrics.reliability import (
     Reliability,
@@ -32,6 +32,8 @@ class Panel:
         The whole reference and its human data.
     mask : (n_trials,)
         The property's trials.
+    sets : (n_participants,)
+        Which of the reference's participants saw the same trials; empty where single responses are unknown.
     number
         The property's place in the benchmark: each has splits of its own.
     """
@@ -39,10 +41,11 @@ class Panel:
     reference: Reference
     counts: People
     mask: Booleans
+    sets: Integers
     number: int
 
     @cached_property
-    def people(self) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    def people(self) -> Integers:
         """Who judged a trial, as ascending indices of the reference's participants; none if unknown."""
         responses = self.counts.responses
         if responses is None:
@@ -58,9 +61,8 @@ class Panel:
         kept = self.mask[responses.trials]
         trials = (np.cumsum(self.mask) - 1)[responses.trials[kept]]
         persons = np.searchsorted(self.people, responses.participants[kept])
-        sets = find_sets(responses, self.reference)[self.people]
         seed, stream = self.reference.benchmark.grading.seed, SPLIT_STREAM + self.number
-        is_first = split_people(sets, N_SPLITS, seed=seed, stream=stream)
+        is_first = split_people(self.sets[self.people], N_SPLITS, seed=seed, stream=stream)
         return count_halves(is_first, persons, trials, responses.answers[kept], int(self.mask.sum()))
 
     @cached_property
@@ -95,10 +97,12 @@ class Panel:
 
 def find_panels(reference: Reference) -> Mapping[str, Panel]:
     """Give the panel of each property; none without human data."""
-    if reference.people is None:
+    people = reference.people
+    if people is None:
         return {}
+    sets = find_sets(people.responses, reference) if people.responses else np.zeros(0, np.int64)
     names = [property_.name for property_ in reference.benchmark.properties]
     return {
-        name: Panel(reference, reference.people, reference.in_property(name), number)
+        name: Panel(reference, people, reference.in_property(name), sets, number)
         for number, name in enumerate(names)
     }

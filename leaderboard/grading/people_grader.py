@@ -11,7 +11,7 @@ from leaderboard.grading.scopes import EMPTY_SUBSET, list_scopes
 from leaderboard.grading.tally import Tally
 from leaderboard.grading.yardstick import Cell, Yardstick
 from leaderboard.metrics.accuracy import Floats, human_accuracy, right_counts
-from leaderboard.metrics.crossfit import human_accuracy_on
+from leaderboard.metrics.crossfit import CrossSubset, human_accuracy_on
 from leaderboard.metrics.influence import gather_people, spread_to_responses
 from leaderboard.metrics.reliability import Reliability, ceiling_of
 from leaderboard.metrics.resampling import INFLUENCE_BITS, on_grid
@@ -45,13 +45,15 @@ def grade_people(reference: Reference, *, yardstick: Yardstick | None = None) ->
     for cell in yardstick.list_cells(everything):
         estimates = _estimate(people, reference, cell)
         resampled = _resample(people, reference, cell, yardstick)
-        panel = yardstick.find_panel(cell) if cell.scope.kind == "property" else None
+        panel = yardstick.find_panel(cell)
         if panel:
             agreement, resampled_agreement = _measure_agreement(panel, cell, yardstick)
             estimates, resampled = estimates | agreement, resampled | resampled_agreement
         tally.add(cell.key, cell.counts, estimates, resampled)
-        if panel and panel.crossfit:
-            _tally_crossfit(tally, panel, cell)
+        crossfit = yardstick.find_crossfit(cell)
+        for name, (subset, counts) in cross_subsets(crossfit).items() if crossfit else ():
+            accuracy = {"accuracy": human_accuracy_on(subset)}
+            tally.add((cell.scope.name, name), counts, accuracy, _resample_crossfit(subset, cell, accuracy))
     tally.average(yardstick.properties)
     return tally.assemble([scope.name for scope in list_scopes(reference, everything)])
 
@@ -117,10 +119,6 @@ def _measure_agreement(
     return estimates, resampled
 
 
-def _tally_crossfit(tally: Tally, panel: Panel, cell: Cell) -> None:
-    for name, (subset, counts) in cross_subsets(panel.crossfit).items() if panel.crossfit else ():
-        accuracy = human_accuracy_on(subset)
-        resampled = (
-            {} if isinstance(accuracy, Undefined) else {"accuracy": resample_people_crossfit(subset, cell)}
-        )
-        tally.add((cell.scope.name, name), counts, {"accuracy": accuracy}, resampled)
+def _resample_crossfit(subset: CrossSubset, cell: Cell, estimates: Mapping[str, Estimate]) -> Resampled:
+    is_defined = not isinstance(estimates["accuracy"], Undefined)
+    return {"accuracy": resample_people_crossfit(subset, cell)} if is_defined else {}

@@ -1,6 +1,6 @@
 """Graded submissions in order: one board per track, with how sure each rank is."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from leaderboard.errors import LeaderboardError
@@ -97,11 +97,12 @@ def rank_entries(
         partial=tuple(Row(entry, None) for entry in partial),
         baselines=tuple(Row(row.entry, None) for row in _assign_ranks(baselines, metric, sign)),
     )
-    return board if yardstick is None else _judge_ranks(board, find_gains(known, yardstick), yardstick)
+    return board if yardstick is None else _judge_ranks(board, known, yardstick)
 
 
-def _judge_ranks(board: Board, gains: Mapping[str, Gain], yardstick: Yardstick) -> Board:
+def _judge_ranks(board: Board, known: Sequence[Entry], yardstick: Yardstick) -> Board:
     """Say of each ranked row how sure its rank is and what its system gains."""
+    gains = find_gains([row.entry for row in board.ranked], known, yardstick)
     rows = [replace(row, gain=gains.get(row.entry.slug)) for row in board.ranked]
     if board.metric != "accuracy" or not rows:
         return replace(board, ranked=tuple(rows))

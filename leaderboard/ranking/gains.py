@@ -3,14 +3,12 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-import numpy as np
-
 from leaderboard.grading import Yardstick
 from leaderboard.metrics.exact_tests import paired_p
 from leaderboard.metrics.resampling import Interval, percentile_interval
 from leaderboard.models import Metadata
 from leaderboard.ranking.entries import Entry
-from leaderboard.ranking.shares import denominator, share_out
+from leaderboard.ranking.shares import count_points, denominator, share_out
 
 DECIMALS = 6
 
@@ -50,39 +48,40 @@ def is_counterpart(with_property: Metadata, without_property: Metadata) -> bool:
     return same and (a.protocol.testing, b.protocol.testing) == ("with_property", "without_property")
 
 
-def find_gains(entries: Iterable[Entry], yardstick: Yardstick) -> dict[str, Gain]:
-    """Find the property gain of every complete submission with a complete counterpart, by slug.
+def find_gains(entries: Iterable[Entry], others: Iterable[Entry], yardstick: Yardstick) -> dict[str, Gain]:
+    """Find the property gain of each complete submission with a complete counterpart among others.
 
-    Of several counterparts the latest counts, of several of one date the last by slug.
+    The gains go by slug. Of several counterparts the latest counts, of several of one date the last by slug.
     """
-    complete = [entry for entry in entries if entry.is_complete and not entry.is_baseline]
     systems: dict[str, list[Entry]] = {}
-    for entry in complete:
-        systems.setdefault(entry.metadata.submission.system, []).append(entry)
+    for other in others:
+        if other.is_complete and not other.is_baseline:
+            systems.setdefault(other.metadata.submission.system, []).append(other)
     gains = {}
-    for entry in complete:
-        relatives = systems[entry.metadata.submission.system]
-        others = [other for other in relatives if is_counterpart(entry.metadata, other.metadata)]
-        if others:
-            latest = max(others, key=lambda other: (other.metadata.submission.date, other.slug))
+    for entry in entries:
+        relatives = systems.get(entry.metadata.submission.system, [])
+        counterparts = [other for other in relatives if is_counterpart(entry.metadata, other.metadata)]
+        if counterparts:
+            latest = max(counterparts, key=lambda other: (other.metadata.submission.date, other.slug))
             gains[entry.slug] = _measure_gain(entry, latest, yardstick)
     return gains
 
 
 def _measure_gain(entry: Entry, other: Entry, yardstick: Yardstick) -> Gain:
     reference = yardstick.reference
-    shares = share_out([entry.credits, other.credits], reference)
-    difference = shares[0] - shares[1]
+    two = [entry.credits, other.credits]
+    with_it, without_it = share_out(two, reference)
+    points_with, points_without = count_points(two, reference)
+    difference = with_it - without_it
     whole = denominator(reference)
     resampled = (difference @ yardstick.draws.pairs) / whole
     interval = percentile_interval(float(difference.sum() / whole), resampled)
-    by_pair = np.bincount(reference.pairs, 2 * (entry.credits - other.credits))
     if not isinstance(interval, Interval):
         raise TypeError("a mean over drawn pairs always has a value")
     return Gain(
         value=round(interval.value, DECIMALS),
         low=round(interval.low, DECIMALS),
         high=round(interval.high, DECIMALS),
-        p=paired_p(by_pair.astype(np.int64)),
+        p=paired_p(points_with - points_without),
         without=other.slug,
     )

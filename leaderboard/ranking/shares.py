@@ -9,6 +9,21 @@ from leaderboard.metrics.accuracy import Floats, Integers
 from leaderboard.reference import Reference
 
 
+def count_points(credits: Sequence[Floats], reference: Reference) -> Integers:
+    """Count the half credits that each pair earned, whatever its property weighs.
+
+    Parameters
+    ----------
+    credits : n_submissions of (n_trials,), each 0, 0.5 or 1
+
+    Returns
+    -------
+    (n_submissions, n_pairs)
+    """
+    points = [np.bincount(reference.pairs, 2 * c, minlength=len(reference.pair_ids)) for c in credits]
+    return np.array(points).reshape(len(credits), -1).astype(np.int64)
+
+
 def share_out(credits: Sequence[Floats], reference: Reference) -> Integers:
     """Split overall accuracies over pairs: a sum over pairs divided by ``denominator`` is the accuracy.
 
@@ -25,24 +40,10 @@ def share_out(credits: Sequence[Floats], reference: Reference) -> Integers:
     (n_submissions, n_pairs)
     """
     sizes = np.bincount(reference.properties)
-    worth = lcm(*sizes.tolist()) // sizes[reference.properties]
-    shares = [np.bincount(reference.pairs, 2 * c * worth, minlength=len(reference.pair_ids)) for c in credits]
-    return np.array(shares).reshape(len(credits), -1).astype(np.int64)
-
-
-def count_points(credits: Sequence[Floats], reference: Reference) -> Integers:
-    """Count the half credits that each pair earned, whatever its property weighs.
-
-    Parameters
-    ----------
-    credits : n_submissions of (n_trials,), each 0, 0.5 or 1
-
-    Returns
-    -------
-    (n_submissions, n_pairs)
-    """
-    points = [np.bincount(reference.pairs, 2 * c, minlength=len(reference.pair_ids)) for c in credits]
-    return np.array(points).reshape(len(credits), -1).astype(np.int64)
+    worth = np.zeros(len(reference.pair_ids), np.int64)
+    worth[reference.pairs] = lcm(*sizes.tolist()) // sizes[reference.properties]
+    shares: Integers = count_points(credits, reference) * worth
+    return shares
 
 
 def denominator(reference: Reference) -> int:

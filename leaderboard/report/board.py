@@ -1,6 +1,6 @@
 """The board of a track as a terminal table, CSV, LaTeX and JSON; all from one list of columns."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 
 from rich.console import RenderableType
@@ -8,8 +8,9 @@ from rich.table import Table
 from rich.text import Text
 
 from leaderboard.files import canonical_json, csv_text
+from leaderboard.grading import Scores
 from leaderboard.metrics.undefined import Undefined
-from leaderboard.models import Score, SubsetScores
+from leaderboard.models import Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Entry, Row
 from leaderboard.reference import Reference
@@ -22,8 +23,6 @@ from leaderboard.report.terminal import (
     reference_banner,
     render_tables,
 )
-
-Scores = Mapping[str, Mapping[str, SubsetScores]]
 
 WIDE = 150
 ALPHA = 0.05

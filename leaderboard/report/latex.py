@@ -1,8 +1,9 @@
 """The board of a track as a LaTeX table."""
 
+from leaderboard.grading import Scores
 from leaderboard.ranking import Board, Row
 from leaderboard.reference import Reference
-from leaderboard.report.board import Column, Scores, board_columns
+from leaderboard.report.board import Column, board_columns
 from leaderboard.report.terminal import ABSENT
 
 _LATEX_SPECIAL = {

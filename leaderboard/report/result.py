@@ -6,7 +6,9 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from leaderboard.models import Metadata, Result, Score, SubsetScores
+from leaderboard.grading import Scores
+from leaderboard.grading.scopes import CROSSFIT_SUBSETS
+from leaderboard.models import Metadata, Result, Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.reference import Reference
 from leaderboard.report.terminal import (
@@ -24,9 +26,6 @@ from leaderboard.report.terminal import (
 LARGE_GAP = 0.05
 ALPHA = 0.05
 PAPER_SUBSETS = ("easy", "hard")
-CROSSFIT_SUBSETS = ("easy_crossfit", "hard_crossfit")
-
-Scores = Mapping[str, Mapping[str, SubsetScores]]
 
 
 def render_result(
@@ -200,8 +199,8 @@ def _probability_table(result: Result, reference: Reference) -> Table:
 def _legend(result: Result, reference: Reference) -> Iterator[str]:
     bootstrap = result.bootstrap
     has_responses = reference.people is not None and reference.people.responses is not None
-    people = " and over people" if has_responses else ""
-    yield f"95 %: bootstrap over pairs within scenarios{people}, {bootstrap.resamples:,} resamples."
+    drawn = "pairs within scenarios" + (" and people" if has_responses else "")
+    yield f"95 %: bootstrap over {drawn}, {bootstrap.resamples:,} resamples; for all numbers: --json."
     yield f"* above chance: exact one-sided p < {ALPHA}, not corrected for the number of rows."
     if reference.people is not None:
         yield f"▲ ▼ the model is {100 * LARGE_GAP:.0f} points or more above or below people, same trials."

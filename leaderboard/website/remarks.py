@@ -63,8 +63,8 @@ def _explain_ranks(board: Board) -> Iterator[Fact]:
         points = show_percent(board.detectable)
         yield Fact(
             "Detectable",
-            f"A difference of {points} points is found in 80 % of cases with so many trials; smaller ones "
-            "mostly go unnoticed.",
+            f"A difference of {points} points is found in 80 % of cases with so many trials, a smaller one "
+            "less often.",
         )
 
 

@@ -208,3 +208,14 @@ def test_the_same_draws_serve_every_submission() -> None:
     with_one = [grade(s, REFERENCE, yardstick=yardstick) for s in submissions]
     assert with_one == [grade(s, REFERENCE) for s in submissions]
     assert isinstance(tally_scores(observe(REFERENCE), EVERYTHING, yardstick), Tally)
+
+
+def test_a_reference_too_large_for_float32_gives_the_same_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is summed in float32 while that is exact is summed in float64 beyond."""
+    small = tally_scores(observe(REFERENCE), EVERYTHING, Yardstick.of(REFERENCE)).resampled
+    monkeypatch.setattr("leaderboard.grading.draws.EXACT_IN_FLOAT32", 0)
+    yardstick = Yardstick.of(REFERENCE)
+    large = tally_scores(observe(REFERENCE), EVERYTHING, yardstick).resampled
+    assert yardstick.draws.small_pairs.dtype == np.float64
+    assert small.keys() == large.keys()
+    assert all(np.array_equal(small[key], large[key], equal_nan=True) for key in small)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from builders import build_entry, build_reference
-from leaderboard.grading import grade_people
+from leaderboard.grading import Yardstick, grade_people
 from leaderboard.ranking import Board, rank_entries
 from leaderboard.reference import Reference
 from leaderboard.report.board import render_board, render_board_csv, render_board_json
@@ -110,3 +110,73 @@ def test_another_metric_gets_a_column_of_its_own(reference: Reference) -> None:
     board = rank_entries([entry], reference.benchmark.default_track, "auc")
     header = render_board_csv(board, reference, {}).splitlines()[0]
     assert "auc.overall" in header.split(",")
+
+
+@pytest.fixture(scope="module")
+def judged() -> tuple[Board, Reference]:
+    """Build a board that says how sure its ranks are, with a gain on its first row."""
+    large = build_reference(40, n_people=4)
+    right = np.where(large.labels == 1, 0.9, 0.1)
+    poor = np.where(np.arange(large.n_trials) % 5 == 0, 1 - right, right)
+    coin = np.random.default_rng(5).random(large.n_trials)
+    entries = [
+        build_entry(large, "best", right.tolist(), system="one"),
+        build_entry(large, "same", right.tolist(), system="two"),
+        build_entry(large, "coin", coin.tolist(), system="three"),
+        build_entry(large, "old", poor.tolist(), system="one", testing="without_property"),
+    ]
+    track = large.benchmark.default_track
+    return rank_entries(entries, track, yardstick=Yardstick.of(large)), large
+
+
+def test_the_table_says_how_sure_ranks_are(judged: tuple[Board, Reference]) -> None:
+    """Rank sets with a mark on the best group, the gain with its test, and what can be told apart."""
+    board, large = judged
+    lines = render_board(board, large, {}).splitlines()
+    rows = {
+        name: next(line.split() for line in lines if name in line.split())
+        for name in ("best", "same", "coin")
+    }
+    assert rows["best"][:8] == ["1", "best", "1", "to", "2†", "+20.0*", "100.0", "100.0"]
+    assert rows["same"][:6] == ["1", "same", "1", "to", "2†", "100.0"]
+    assert rows["coin"][:3] == ["3", "coin", "3"]
+    assert isinstance(board.detectable, float)
+    assert f"A true difference of {100 * board.detectable:.1f} points is found 4 times in 5." in lines
+    assert any(line.startswith("gain: points over the system without") for line in lines)
+
+
+def test_a_wide_terminal_shows_the_chance_to_be_the_best(judged: tuple[Board, Reference]) -> None:
+    """Two equal ones share it."""
+    board, large = judged
+    lines = render_board(board, large, {}, terminal=Terminal(200)).splitlines()
+    assert "best, %" in next(line for line in lines if "ranks" in line)
+    assert next(line.split() for line in lines if "same" in line.split())[5] == "50"
+
+
+def test_programs_get_standings_and_gains(judged: tuple[Board, Reference]) -> None:
+    """In JSON as they are, in CSV the ends of the rank set and of the interval."""
+    board, large = judged
+    data = json.loads(render_board_json(board, large, {}))
+    first, last = data["rows"][0], data["rows"][-1]
+    assert (first["rank_set"], first["best_probability"], first["among_best"]) == ([1, 2], 0.5, True)
+    assert (first["property_gain"]["value"], first["property_gain"]["without"]) == (0.2, "old")
+    assert (last["rank_set"], last["among_best"]) == ([3, 3], False)
+    assert "property_gain" not in last
+    assert data["detectable_difference"] == {"value": board.detectable}
+    rows = list(csv.DictReader(io.StringIO(render_board_csv(board, large, {}))))
+    assert [(row["rank_low"], row["rank_high"]) for row in rows] == [("1", "2"), ("1", "2"), ("3", "3")]
+    score = board.ranked[-1].entry.score("accuracy")
+    assert score is not None
+    ends = (rows[-1]["accuracy.overall.low"], rows[-1]["accuracy.overall.high"])
+    assert ends == (str(score.low), str(score.high))
+
+
+def test_a_board_without_rivals_says_why_nothing_is_detectable(reference: Reference) -> None:
+    """One submission cannot be told from anything."""
+    entry = build_entry(reference, "one", np.linspace(0, 1, reference.n_trials).tolist())
+    board = rank_entries([entry], reference.benchmark.default_track, yardstick=Yardstick.of(reference))
+    data = json.loads(render_board_json(board, reference, {}))
+    assert data["detectable_difference"] == {
+        "value": None,
+        "why": "there are fewer than two different systems",
+    }

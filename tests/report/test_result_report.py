@@ -10,7 +10,7 @@ from leaderboard.grading import grade, grade_people
 from leaderboard.models import Check
 from leaderboard.reference import Reference
 from leaderboard.report.result import render_result
-from leaderboard.report.terminal import Terminal
+from leaderboard.report.terminal import ABSENT, Terminal
 
 
 @pytest.fixture(scope="module")
@@ -84,3 +84,30 @@ def test_numbers_are_never_cut(reference: Reference) -> None:
     narrow = _render(reference, probabilities, terminal=Terminal(40))
     numbers = re.compile(r"[-+]?[0-9]+\.[0-9]+")
     assert sorted(numbers.findall(narrow)) == sorted(numbers.findall(wide))
+
+
+def test_intervals_ceiling_and_cross_fitted_trials_are_shown(reference: Reference) -> None:
+    """Beside r its interval, the ceiling and the share of it; easy and hard a second time, cross-fitted."""
+    probabilities = np.random.default_rng(4).random(reference.n_trials).tolist()
+    lines = _render(reference, probabilities, terminal=Terminal(200)).splitlines()
+    result = grade(build_submission(reference, probabilities), reference)
+    ceiling = grade_people(reference)["Alpha"]["all"].metrics["ceiling"].value
+    r = result.scores["Alpha"]["all"].metrics["human_r"]
+    place = next(i for i, line in enumerate(lines) if "agreement with people" in line)
+    alpha = next(line.split() for line in lines[place:] if line.startswith(" Alpha"))
+    assert alpha[1:6] == [
+        f"{r.value:.3f}",
+        f"{r.low:.3f}",
+        "to",
+        f"{r.high:.3f}",
+        f"{ceiling:.3f}" if ceiling else ABSENT,
+    ]
+    place = next(i for i, line in enumerate(lines) if "the same, cross-fitted" in line)
+    alpha = next(line.split() for line in lines[place:] if line.startswith(" Alpha"))
+    easy = result.scores["Alpha"]["easy_crossfit"]
+    assert easy.metrics["accuracy"].value is not None
+    assert alpha[1:3] == [f"{easy.n:.0f}", f"{100 * easy.metrics['accuracy'].value:.1f}"]
+    assert (
+        "95 %: bootstrap over pairs within scenarios and people, 200 resamples; for all numbers: --json."
+        in lines
+    )
