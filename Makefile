@@ -28,12 +28,20 @@ demo: .venv/.runtime ## validate, grade, rank and publish the submissions in thi
 dev: .venv/.dev ## make .venv with everything for development
 
 .PHONY: test
-test: .venv/.dev browser ## run all tests in parallel, with coverage (PYTEST_ARGS="-k name" adds arguments)
+test: .venv/.dev browser checker ## run all tests in parallel, with coverage (PYTEST_ARGS="-k name" adds arguments)
 	@$(BIN)/python -m pytest --cov $(PYTEST_ARGS)
+
+.PHONY: campaign
+campaign: .venv/.dev ## hours of hostile input, kills, failing disks and mutants: docs/security.md (CAMPAIGN=kills: one)
+	@nice -n 19 $(BIN)/python -m benchmarks.campaigns $(CAMPAIGN)
 
 .PHONY: browser
 browser: ## make sure that Chromium is there for the browser tests
 	@bash tools/install-browser.sh
+
+.PHONY: checker
+checker: .venv/.made ## make sure that the HTML checker is there for its test
+	@bash tools/install-html-checker.sh
 
 .PHONY: check
 check: lint types imports ## lint, types and imports: all that CI checks besides the tests
@@ -65,6 +73,10 @@ lock: .venv/.dev ## write both locks anew for pyproject.toml (UPGRADE=1: newest 
 	@$(BIN)/python -c 'import sys; sys.version_info[:2] == (3, 11) or sys.exit("make lock needs Python 3.11, the oldest supported: make clean, then make lock PYTHON=python3.11")'
 	$(COMPILE) $(if $(UPGRADE),--upgrade) --build-deps-for editable --output-file requirements.lock pyproject.toml
 	$(COMPILE) $(if $(UPGRADE),--upgrade) --build-deps-for editable --extra dev --constraint requirements.lock --output-file requirements-dev.lock pyproject.toml
+
+.PHONY: vendor
+vendor: .venv/.runtime ## copy what tools/vendor/package-lock.json holds from npm into the website
+	@$(BIN)/python tools/vendor_site.py
 
 .PHONY: examples
 examples: .venv/.runtime ## write the embedded reference's baselines and simulated systems anew
