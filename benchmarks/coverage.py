@@ -17,7 +17,7 @@ from leaderboard.grading import Yardstick, grade_people, tally_scores
 from leaderboard.grading.draws import Draws
 from leaderboard.grading.observations import Observations
 from leaderboard.instance import Instance
-from leaderboard.metrics.ranks import find_rank_sets
+from leaderboard.metrics.ranks import find_rank_sets, resample_scores
 from leaderboard.metrics.resampling import draw_weights
 from leaderboard.models import Score
 from leaderboard.reference import People, Reference, load_reference
@@ -105,7 +105,7 @@ def measure_setting(setting: Setting, n_simulations: int, n_resamples: int) -> C
         resampled = (weights @ right.T) / (2 * setting.n_pairs)
         low, high = np.quantile(resampled, TAILS, axis=0)
         holds[0, number] = (low <= truth) & (truth <= high)
-        found = find_rank_sets(right, strata, weights).T
+        found = find_rank_sets(right, strata, resample_scores(right, weights)).T
         holds[1, number] = (found[0] <= best) & (worst <= found[1])
         ranks = 1 + (resampled[:, None, :] > resampled[:, :, None] + 1e-12).sum(axis=2)
         low, high = np.quantile(ranks, TAILS, axis=0)

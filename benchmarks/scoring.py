@@ -12,11 +12,13 @@ in turn where packages are compared. Exit status 1 if a limit is exceeded.
 import argparse
 import datetime as dt
 import importlib
+import multiprocessing
 import resource
 import statistics
 import sys
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -29,7 +31,7 @@ from numpy.typing import NDArray
 from leaderboard.grading import Yardstick, grade
 from leaderboard.instance import Instance
 from leaderboard.metrics.accuracy import credits_of
-from leaderboard.metrics.ranks import find_best_probabilities, find_rank_sets
+from leaderboard.metrics.ranks import find_best_probabilities, find_rank_sets, resample_scores
 from leaderboard.metrics.resampling import Interval, draw_weights, percentile_interval
 from leaderboard.models import Metadata, Result
 from leaderboard.ranking import Entry, rank_entries
@@ -47,6 +49,7 @@ N_RESAMPLES = 10_000
 DATE = dt.date(2026, 11, 21)
 
 SIZES = (10, 100, 1_000)
+N_PROCESSES = 2
 GRADE_LIMIT = 0.060  # seconds, one submission
 BOARD_LIMIT = 10.0  # seconds, a whole board
 MEMORY_LIMIT = 1_000  # MB, the process
@@ -126,11 +129,12 @@ def prepare_ours(case: Case, *, is_drawn: bool) -> Contender:
 
     def run() -> Answer:
         weights = draw_case(case) if drawn is None else drawn
-        means = shares.astype(np.float64) @ weights.T / n_trials
+        scores = resample_scores(shares, weights)
+        means = scores.astype(np.float64) / n_trials
         values = (shares.sum(axis=1) / n_trials).tolist()
         intervals = [percentile_interval(value, row) for value, row in zip(values, means, strict=True)]
-        ranks = find_rank_sets(shares, case.strata, weights).tolist()
-        find_best_probabilities(shares, weights)
+        ranks = find_rank_sets(shares, case.strata, scores).tolist()
+        find_best_probabilities(scores)
         best = intervals[0]
         if not isinstance(best, Interval):
             raise TypeError("a mean over drawn pairs always has a value")
@@ -142,9 +146,9 @@ def prepare_ours(case: Case, *, is_drawn: bool) -> Contender:
     return Contender("this project", task, run)
 
 
-def draw_case(case: Case) -> Floats:
+def draw_case(case: Case) -> NDArray[np.float32]:
     """Draw the resamples of the case, shape (n_resamples, n_pairs)."""
-    return draw_weights(case.strata, N_RESAMPLES, seed=SEED, stream=0).astype(np.float64)
+    return draw_weights(case.strata, N_RESAMPLES, seed=SEED, stream=0).astype(np.float32)
 
 
 def prepare_scipy(case: Case) -> Contender:
@@ -273,6 +277,34 @@ def grade_all(submissions: Sequence[Submission], reference: Reference, yardstick
     return [grade(submission, reference, yardstick=yardstick) for submission in submissions]
 
 
+def grade_on_two_cores(
+    submissions: Sequence[Submission], reference: Reference, yardstick: Yardstick
+) -> list[Result]:
+    """Do the same in two processes, each of which grades every other submission.
+
+    They are forks of this one once everything shared is computed, so that they share its memory.
+    """
+    first = grade_all(submissions[:1], reference, yardstick)
+    _memory_when_forked[:] = [read_memory()]
+    context = multiprocessing.get_context("fork")
+    with ProcessPoolExecutor(N_PROCESSES, context, _remember, (reference, yardstick)) as pool:
+        return first + list(pool.map(_grade_remembered, submissions[1:], chunksize=8))
+
+
+_shared: list[tuple[Reference, Yardstick]] = []
+_memory_when_forked = [0.0]
+
+
+def _remember(reference: Reference, yardstick: Yardstick) -> None:
+    """Keep what all grades of a process share."""
+    _shared.append((reference, yardstick))
+
+
+def _grade_remembered(submission: Submission) -> Result:
+    reference, yardstick = _shared[0]
+    return grade(submission, reference, yardstick=yardstick)
+
+
 def rank_all(
     submissions: Sequence[Submission], results: Sequence[Result], reference: Reference, yardstick: Yardstick
 ) -> None:
@@ -281,7 +313,8 @@ def rank_all(
     for index, (submission, result) in enumerate(zip(submissions, results, strict=True)):
         credits = credits_of(submission.probabilities, reference.labels, submission.answered)
         slug = f"system-{index:04d}"
-        entries.append(Entry(slug, describe_system(slug, reference), result, credits))
+        given = np.where(submission.answered, submission.probabilities, np.nan)
+        entries.append(Entry(slug, describe_system(slug, reference), result, credits, given))
     rank_entries(entries, reference.benchmark.default_track, yardstick=yardstick)
 
 
@@ -326,7 +359,7 @@ def measure_board(reference: Reference, n: int) -> bool:
     """Print a row of what a board of ``n`` submissions costs; return whether it is within the limits."""
     submissions = simulate_submissions(reference, n)
     yardstick, preparing = measure(lambda: Yardstick.of(reference))
-    results, grading = measure(lambda: grade_all(submissions, reference, yardstick))
+    results, grading = measure(lambda: grade_on_two_cores(submissions, reference, yardstick))
     _, ranking = measure(lambda: rank_all(submissions, results, reference, yardstick))
     grading += preparing
     seconds, peak = grading + ranking, read_peak_memory()
@@ -353,10 +386,22 @@ def measure(function: Callable[[], T]) -> tuple[T, float]:
     return value, time.perf_counter() - start
 
 
+def read_memory() -> float:
+    """Memory that this process holds now, in MB; 0 where the system does not say."""
+    file = Path("/proc/self/statm")
+    return int(file.read_text().split()[1]) * resource.getpagesize() / 1e6 if file.exists() else 0.0
+
+
 def read_peak_memory() -> float:
-    """Most memory that this process has held so far, in MB; the system counts in kB, macOS in bytes."""
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / (1e6 if sys.platform == "darwin" else 1e3)
+    """Most memory that this process has held so far and its forks besides, in MB.
+
+    The system counts in kB, macOS in bytes; what forks hold includes what they share with this process.
+    """
+    unit = 1e6 if sys.platform == "darwin" else 1e3
+    own, fork = (
+        resource.getrusage(who).ru_maxrss / unit for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    )
+    return own + N_PROCESSES * max(fork - _memory_when_forked[0], 0)
 
 
 def say(is_within: bool) -> str:  # noqa: FBT001

@@ -42,6 +42,16 @@ class Draws:
         """
         return self.pairs.astype(np.float32) if 8 * len(self.pairs) ** 2 < EXACT_IN_FLOAT32 else self.pairs
 
+    @cached_property
+    def whole_pairs(self) -> NDArray[np.uint16]:
+        """The weights of pairs as whole numbers, of which four times as many fit in the cache."""
+        return self.pairs.astype(np.uint16)
+
+    @cached_property
+    def further_people(self) -> Floats | None:
+        """How often each person is drawn, less the once that the data have, (n_participants, n_resamples)."""
+        return None if self.people is None else self.people - 1
+
     @classmethod
     def of(cls, reference: Reference) -> Self:
         """Draw as many resamples as the benchmark says, from its seed."""
@@ -54,6 +64,13 @@ class Draws:
             sets = find_sets(responses, reference)
             people = draw_weights(sets, n_resamples, seed=seed, stream=PEOPLE_STREAM).T.astype(np.float64)
         return cls(pairs.T.astype(np.float64), people)
+
+
+def find_run(rows: Integers) -> slice | Integers:
+    """Give ascending rows as a slice, which copies nothing, if they follow each other."""
+    if rows.size and rows[-1] - rows[0] + 1 == rows.size:
+        return slice(rows[0], rows[-1] + 1)
+    return rows
 
 
 def find_strata(reference: Reference) -> Integers:

@@ -1,17 +1,19 @@
 """Computing a result: each metric on each subset of each scope, with intervals."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from leaderboard import __version__
 from leaderboard.files import canonical_json
 from leaderboard.grading.binning import bin_scopes
-from leaderboard.grading.crossfitted import cross_subsets, estimate_crossfit, resample_crossfit
-from leaderboard.grading.intervals import resample_cell
+from leaderboard.grading.cells import Cell
+from leaderboard.grading.crossfitted import CrossMeasured
+from leaderboard.grading.intervals import Measured, resample_cells
 from leaderboard.grading.metrics import METRICS, METRICS_VERSION
 from leaderboard.grading.observations import NOT_A_PROPERTY, Observations
-from leaderboard.grading.scopes import EMPTY_SUBSET, list_scopes
+from leaderboard.grading.scopes import EMPTY_SUBSET, SUBSETS, list_scopes
+from leaderboard.grading.sums import sum_columns
 from leaderboard.grading.tally import Tally
-from leaderboard.grading.yardstick import Cell, Yardstick
+from leaderboard.grading.yardstick import Yardstick
 from leaderboard.metrics.accuracy import Booleans
 from leaderboard.metrics.undefined import Estimate
 from leaderboard.models import Bootstrap, Check, Coverage, Inputs, Result
@@ -39,7 +41,7 @@ def grade(
     """
     yardstick = yardstick or Yardstick.of(reference)
     observations = Observations.of(submission, reference)
-    tally = tally_scores(observations, submission.covered, yardstick)
+    tally = tally_scores(observations, submission.covered, yardstick, keeps_resamples=False)
     scopes = list_scopes(reference, submission.covered)
     properties = tuple(scope.name for scope in scopes if scope.kind == "property")
     grading = reference.benchmark.grading
@@ -65,34 +67,63 @@ def grade(
     )
 
 
-def tally_scores(observations: Observations, covered: Booleans, yardstick: Yardstick) -> Tally:
-    """Compute every metric of every cell with its resamples, and the averages over the properties."""
-    tally = Tally()
-    for cell in yardstick.list_cells(covered):
-        _score_cell(tally, observations, cell, yardstick)
+def tally_scores(
+    observations: Observations,
+    covered: Booleans,
+    yardstick: Yardstick,
+    *,
+    subsets: Collection[str] = SUBSETS,
+    keeps_resamples: bool = True,
+) -> Tally:
+    """Compute every metric of every cell with its resamples, and the averages over the properties.
+
+    Parameters
+    ----------
+    subsets
+        Those that are wanted, which says nothing about what they give; the cross-fitted need ``all``.
+    keeps_resamples
+        Whether the resamples themselves are wanted, not only the intervals, which are faster alone.
+    """
+    tally = Tally(yardstick.properties, keeps_resamples)
+    for group in yardstick.group_cells(covered):
+        cells = [cell for cell in group if cell.subset in subsets]
+        _score_cells(tally, observations, cells, yardstick, subsets)
     if covered.all():
-        tally.average(yardstick.properties)
+        tally.average()
         _pool_p_values(tally, observations, yardstick)
     return tally
 
 
-def _score_cell(tally: Tally, observations: Observations, cell: Cell, yardstick: Yardstick) -> None:
-    """Compute the metrics of a cell, and on whole properties those of the cross-fitted subsets."""
+def _score_cells(
+    tally: Tally,
+    observations: Observations,
+    cells: Sequence[Cell],
+    yardstick: Yardstick,
+    subsets: Collection[str],
+) -> None:
+    """Compute the metrics of the cells of a property, and those of its cross-fitted subsets."""
+    measured = [_measure(observations, cell, yardstick) for cell in cells]
+    pairs = [(c, m.observed) for m in measured for c in yardstick.find_cross_cells(m.cell)]
+    crossed = [CrossMeasured(cross, observed) for cross, observed in pairs if cross.name in subsets]
+    columns = [m.columns for m in measured] + [c.columns for c in crossed]
+    sums = sum_columns([*cells, *(c.cross.cell for c in crossed)], columns)
+    resamples = resample_cells(measured, sums[: len(cells)], yardstick)
+    for m, resampled in zip(measured, resamples, strict=True):
+        tally.add(m.cell.key, m.cell.counts, m.estimates, resampled)
+    for c, of_subset in zip(crossed, sums[len(cells) :], strict=True):
+        tally.add(c.cross.key, c.cross.counts, c.estimates, c.resample(of_subset))
+
+
+def _measure(observations: Observations, cell: Cell, yardstick: Yardstick) -> Measured:
     found = yardstick.find_reliability(cell)
-    o = observations.select(cell.mask, reliability=found.value if found else NOT_A_PROPERTY)
-    estimates = _estimate(o)
-    tally.add(cell.key, cell.counts, estimates, resample_cell(o, cell, estimates, yardstick))
-    crossfit = yardstick.find_crossfit(cell)
-    for name, (subset, counts) in cross_subsets(crossfit).items() if crossfit else ():
-        estimates = estimate_crossfit(o, subset)
-        resampled = resample_crossfit(o, subset, cell, estimates)
-        tally.add((cell.scope.name, name), counts, estimates, resampled)
+    o = cell.observe(observations, reliability=found.value if found else NOT_A_PROPERTY)
+    return Measured(cell, o, _estimate(o))
 
 
 def _pool_p_values(tally: Tally, observations: Observations, yardstick: Yardstick) -> None:
     """Overall p-values pool the trials of all properties."""
-    for subset, mask in yardstick.masks.items():
-        pooled = observations.select(mask)
+    for subset in tally.estimates[OVERALL].keys() & yardstick.masks.keys():
+        pooled = observations.select(yardstick.masks[subset])
         if pooled.labels.size:
             p_values = {metric.name: metric.compute(pooled) for metric in METRICS if metric.is_p_value}
             tally.estimates[OVERALL][subset] |= p_values

@@ -1,83 +1,119 @@
 """From the sums on each resample to the intervals of a submission's scores."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from leaderboard.grading.cells import Cell
+from leaderboard.grading.columns import share_sums, tabulate_fine, tabulate_halves
 from leaderboard.grading.metrics import METRICS
 from leaderboard.grading.observations import Observations
-from leaderboard.grading.resampled import RESAMPLED, sum_resamples
-from leaderboard.grading.yardstick import Cell, Yardstick
+from leaderboard.grading.resampled import RESAMPLED, limit
+from leaderboard.grading.sums import Sums, sum_halves
+from leaderboard.grading.yardstick import Yardstick
 from leaderboard.metrics import calibration, influence
 from leaderboard.metrics.accuracy import Floats
 from leaderboard.metrics.agreement import answers_of
+from leaderboard.metrics.resampling import INFLUENCE_BITS, on_grid
 from leaderboard.metrics.undefined import Estimate, Undefined
 
 RANGES = {metric.name: (metric.low, metric.high) for metric in METRICS}
 
 
-def resample_cell(
-    o: Observations, cell: Cell, estimates: Mapping[str, Estimate], yardstick: Yardstick
-) -> dict[str, Floats]:
-    """Compute, on every resample, each metric of a cell that has a value.
+@dataclass(frozen=True)
+class Measured:
+    """A submission in one cell: what is seen of it there, and its metrics."""
+
+    cell: Cell
+    observed: Observations
+    estimates: Mapping[str, Estimate]
+
+    @cached_property
+    def values(self) -> Mapping[str, float]:
+        """The metrics that have a value."""
+        return {name: value for name, value in self.estimates.items() if not isinstance(value, Undefined)}
+
+    @cached_property
+    def kappas(self) -> Mapping[str, tuple[Floats, Floats]]:
+        """Derivatives of both kappas by the weights of trials and of people; none without responses."""
+        o = self.observed
+        if o.responses is None:
+            return {}
+        trials, persons, answers = o.responses
+        is_right = (answers == o.labels[trials]).astype(np.int64)
+        answered = answers_of(o.probabilities)
+        return {
+            "error_consistency": influence.kappa_influences(o.credits, (trials, persons, is_right)),
+            "cohen_kappa": influence.kappa_influences(answered, (trials, persons, answers)),
+        }
+
+    @property
+    def columns(self) -> dict[str, Floats]:
+        """What is summed over the drawn pairs, trial by trial."""
+        slopes = {name: on_grid(by_trial, INFLUENCE_BITS) for name, (by_trial, _) in self.kappas.items()}
+        return tabulate_fine(self.observed) | slopes
+
+    @cached_property
+    def pulls(self) -> Mapping[str, Floats]:
+        """Derivatives of metrics by people's weights, by way of the human means they move; (n_people,)."""
+        o, slopes = self.observed, _find_slopes(self.observed, self.values)
+        by_person = {name: pull for name, (_, pull) in self.kappas.items() if name in self.values}
+        if o.responses is None or o.n is None or o.n_yes is None or not slopes:
+            return by_person
+        moved = influence.spread_to_responses(np.array(list(slopes.values())), o.responses, o.n, o.n_yes)
+        gathered = [influence.gather_people(row, o.responses[1]) for row in moved]
+        return dict(zip(slopes, gathered, strict=True)) | by_person
+
+
+def resample_cells(
+    measured: Sequence[Measured], sums: Sequence[Sums], yardstick: Yardstick
+) -> Iterator[dict[str, Floats]]:
+    """Compute, on every resample, each metric that has a value in some cells of one property.
 
     Pairs are drawn within scenarios, and with them every sum is computed anew. People are drawn within the
     sets that saw the same trials; what they move is added to first order (the infinitesimal jackknife of
     Jaeckel 1972), less what drawing trials accounts for already (``gather_people``). For the two kappas,
     which are averages over people, trials enter to first order as well.
 
-    Returns
-    -------
-    dict of (n_resamples,), NaN where a resample leaves the metric undefined
+    Parameters
+    ----------
+    sums
+        Those of ``columns`` over the drawn pairs, for each cell.
+
+    Yields
+    ------
+    dict of (n_resamples,)
+        For each cell in turn; NaN where a resample leaves the metric undefined.
     """
-    values = {name: value for name, value in estimates.items() if not isinstance(value, Undefined)}
-    kappas = _kappa_influences(o)
-    sums = sum_resamples(o, cell, {name: by_trial for name, (by_trial, _) in kappas.items()})
-    resampled = {name: RESAMPLED[name](sums) for name in values if name in RESAMPLED}
-    resampled |= {name: values[name] + sums[name] for name in kappas if name in values}
-    pulls = _pull_people(o, values) | {name: by_person for name, (_, by_person) in kappas.items()}
-    pulls = {name: pull for name, pull in pulls.items() if name in resampled}
-    for name, effect in zip(pulls, yardstick.draw_effects(cell, list(pulls.values())), strict=True):
-        resampled[name] = np.clip(resampled[name] + effect, *RANGES[name])
-    reliability = yardstick.find_reliability(cell)
-    if reliability is not None and "human_r_normalized" in values:
-        ceiling = yardstick.resample_reliability(reliability, cell)
-        resampled["human_r_normalized"] = _divide_by_root(resampled["human_r"], ceiling)
+    cells = [m.cell for m in measured]
+    share_sums([cell for cell in cells if not cell.shared_sums])
+    halves = sum_halves(cells, [tabulate_halves(m.observed) for m in measured])
+    effects = iter(yardstick.draw_effects(cells[0], [pull for m in measured for pull in m.pulls.values()]))
+    for m, fine, of_halves in zip(measured, sums, halves, strict=True):
+        o, cell = m.observed, m.cell
+        outranked = calibration.count_outranked(o.probabilities, o.labels, cell.positions, cell.whole_weights)
+        s = {**cell.shared_sums, **fine, **of_halves, "outranked": outranked}
+        yield _resample(m, s, {name: next(effects) for name in m.pulls}, yardstick.resample_ceiling(cell))
+
+
+def _resample(
+    m: Measured, s: Sums, effects: Mapping[str, Floats], ceiling: Floats | None
+) -> dict[str, Floats]:
+    """Compute the metrics of one cell, with what drawn people add to them."""
+    with np.errstate(invalid="ignore"):  # 0 / 0
+        resampled = {name: RESAMPLED[name](s) for name in m.values if name in RESAMPLED}
+    resampled |= {name: m.values[name] + s[name] for name in m.kappas if name in m.values}
+    for name, effect in effects.items():
+        moved = np.add(resampled[name], effect, out=resampled[name])
+        limit(moved, *RANGES[name])
+    if ceiling is not None and "human_r_normalized" in m.values:
+        resampled["human_r_normalized"] = resampled["human_r"] / ceiling
     return resampled
 
 
-def _divide_by_root(r: Floats, reliability: Floats) -> Floats:
-    """Divide by the square root; NaN where there is none, since the reliability is not above 0."""
-    roots = np.sqrt(np.where(reliability > 0, reliability, np.nan))
-    return r / roots
-
-
-def _kappa_influences(o: Observations) -> dict[str, tuple[Floats, Floats]]:
-    """Derivatives of both kappas by the weights of trials and of people; none without responses."""
-    if o.responses is None:
-        return {}
-    trials, persons, answers = o.responses
-    is_right = (answers == o.labels[trials]).astype(np.int64)
-    answered = answers_of(o.probabilities)
-    return {
-        "error_consistency": influence.kappa_influences(o.credits, (trials, persons, is_right)),
-        "cohen_kappa": influence.kappa_influences(answered, (trials, persons, answers)),
-    }
-
-
-def _pull_people(o: Observations, values: Mapping[str, float]) -> dict[str, Floats]:
-    """Derivatives of metrics by people's weights, (n_people,) each, by way of the human means they move."""
-    if o.responses is None or o.n is None or o.n_yes is None:
-        return {}
-    return {
-        name: influence.gather_people(
-            influence.spread_to_responses(slopes, o.responses, o.n, o.n_yes), o.responses[1]
-        )
-        for name, slopes in _slopes(o, values).items()
-    }
-
-
-def _slopes(o: Observations, values: Mapping[str, float]) -> dict[str, Floats]:
+def _find_slopes(o: Observations, values: Mapping[str, float]) -> dict[str, Floats]:
     """Derivatives of the defined metrics by the human mean of each trial, (n_trials,) each."""
     rated = o.rated
     q, h, labels = o.probabilities[rated], o.human_means, o.labels[rated]

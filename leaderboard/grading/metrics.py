@@ -67,14 +67,6 @@ class Metric:
         return self.function(observations)
 
 
-def _human_r(o: Observations) -> Estimate:
-    return agreement.human_r(o.probabilities[o.rated], o.human_means)
-
-
-def _human_r_normalized(o: Observations) -> Estimate:
-    return agreement.human_r_normalized(_human_r(o), o.reliability)
-
-
 def _human_r_partial(o: Observations) -> Estimate:
     return agreement.human_r_partial(o.probabilities[o.rated], o.human_means, o.labels[o.rated])
 
@@ -133,7 +125,7 @@ METRICS: tuple[Metric, ...] = (
     Metric(
         "human_r",
         "Human r",
-        _human_r,
+        lambda o: o.human_r,
         "Correlation of P(YES) with the share of people who said YES.",
         "higher",
         -1,
@@ -144,7 +136,7 @@ METRICS: tuple[Metric, ...] = (
     Metric(
         "human_r_normalized",
         "Human r, share of the ceiling",
-        _human_r_normalized,
+        lambda o: agreement.human_r_normalized(o.human_r, o.reliability),
         "Human r divided by the highest that noise in people's answers allows; not clipped.",
         "higher",
         -inf,

@@ -4,14 +4,15 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from leaderboard.grading.crossfitted import cross_subsets, resample_people_crossfit
+from leaderboard.grading.cells import Cell
+from leaderboard.grading.crossfitted import CrossCell, resample_people_crossfit
 from leaderboard.grading.panels import Panel
-from leaderboard.grading.resampled import share
 from leaderboard.grading.scopes import EMPTY_SUBSET, list_scopes
+from leaderboard.grading.sums import share
 from leaderboard.grading.tally import Tally
-from leaderboard.grading.yardstick import Cell, Yardstick
+from leaderboard.grading.yardstick import Yardstick, root
 from leaderboard.metrics.accuracy import Floats, human_accuracy, right_counts
-from leaderboard.metrics.crossfit import CrossSubset, human_accuracy_on
+from leaderboard.metrics.crossfit import human_accuracy_on
 from leaderboard.metrics.influence import gather_people, spread_to_responses
 from leaderboard.metrics.reliability import Reliability, ceiling_of
 from leaderboard.metrics.resampling import INFLUENCE_BITS, on_grid
@@ -40,7 +41,7 @@ def grade_people(reference: Reference, *, yardstick: Yardstick | None = None) ->
     if people is None:
         return {}
     yardstick = yardstick or Yardstick.of(reference)
-    tally = Tally()
+    tally = Tally(yardstick.properties, keeps_resamples=False)
     everything = np.ones(reference.n_trials, bool)
     for cell in yardstick.list_cells(everything):
         estimates = _estimate(people, reference, cell)
@@ -50,11 +51,10 @@ def grade_people(reference: Reference, *, yardstick: Yardstick | None = None) ->
             agreement, resampled_agreement = _measure_agreement(panel, cell, yardstick)
             estimates, resampled = estimates | agreement, resampled | resampled_agreement
         tally.add(cell.key, cell.counts, estimates, resampled)
-        crossfit = yardstick.find_crossfit(cell)
-        for name, (subset, counts) in cross_subsets(crossfit).items() if crossfit else ():
-            accuracy = {"accuracy": human_accuracy_on(subset)}
-            tally.add((cell.scope.name, name), counts, accuracy, _resample_crossfit(subset, cell, accuracy))
-    tally.average(yardstick.properties)
+        for cross in yardstick.find_cross_cells(cell):
+            accuracy = {"accuracy": human_accuracy_on(cross.weighed)}
+            tally.add(cross.key, cross.counts, accuracy, _resample_crossfit(cross, accuracy))
+    tally.average()
     return tally.assemble([scope.name for scope in list_scopes(reference, everything)])
 
 
@@ -74,7 +74,7 @@ def _resample(people: People, reference: Reference, cell: Cell, yardstick: Yards
     if not rated.any():
         return {}
     shares = np.array([right_counts(n, n_yes, labels), n_yes, n]) / np.maximum(n, 1)
-    right, said_yes, drawn = cell.sum_by_pair(on_grid(shares, INFLUENCE_BITS)) @ cell.weights
+    right, said_yes, drawn = cell.sum_by_pair(on_grid(shares, INFLUENCE_BITS)) @ cell.drawn.weights
     slopes = np.array([2.0 * labels - 1, np.ones(labels.size)]) * rated / rated.sum()
     effects = yardstick.draw_effects(cell, _pull(people, cell, slopes))
     return {
@@ -113,12 +113,10 @@ def _measure_agreement(
         if not isinstance(reliability.value, Undefined)
     }
     if not isinstance(estimates["ceiling"], Undefined):
-        resampled["ceiling"] = np.sqrt(
-            np.where(resampled["reliability"] > 0, resampled["reliability"], np.nan)
-        )
+        resampled["ceiling"] = root(resampled["reliability"])
     return estimates, resampled
 
 
-def _resample_crossfit(subset: CrossSubset, cell: Cell, estimates: Mapping[str, Estimate]) -> Resampled:
+def _resample_crossfit(cross: CrossCell, estimates: Mapping[str, Estimate]) -> Resampled:
     is_defined = not isinstance(estimates["accuracy"], Undefined)
-    return {"accuracy": resample_people_crossfit(subset, cell)} if is_defined else {}
+    return {"accuracy": resample_people_crossfit(cross)} if is_defined else {}

@@ -3,15 +3,18 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import groupby
 from typing import Self
 
 import numpy as np
 
-from leaderboard.grading.draws import Draws, Weights
+from leaderboard.grading.cells import Cell, DrawnPairs
+from leaderboard.grading.crossfitted import CrossCell, cross_cells
+from leaderboard.grading.draws import Draws, find_run
+from leaderboard.grading.observations import Ground, lay_ground
 from leaderboard.grading.panels import Panel, find_panels
 from leaderboard.grading.scopes import SUBSETS, Scope, list_scopes, subset_masks
 from leaderboard.metrics.accuracy import Booleans, Floats, Integers
-from leaderboard.metrics.crossfit import CrossFit
 from leaderboard.metrics.influence import gather_people
 from leaderboard.metrics.pairs import find_pairs
 from leaderboard.metrics.reliability import Reliability
@@ -22,64 +25,16 @@ from leaderboard.reference import Reference
 
 
 @dataclass(frozen=True)
-class Cell:
-    """The trials of one subset of one scope, and how often each of their pairs is drawn.
-
-    Attributes
-    ----------
-    scope, subset
-        Which.
-    mask : (n_trials,)
-        The trials, among all of the reference.
-    positions : (n_cell_trials,)
-        Which of the cell's pairs each of its trials belongs to.
-    weights, small_weights : (n_cell_pairs, n_resamples)
-        In float64, and in float32 for what is exact in it; also of some pairs that no trial of the cell is
-        in, where that saves a copy.
-    counts
-        Numbers of trials, pairs and rated trials, as in results.
-    shared_sums : dict of (n_resamples,)
-        Sums over the drawn pairs that all submissions share, once they are computed.
-    """
-
-    scope: Scope
-    subset: str
-    mask: Booleans
-    positions: Integers
-    weights: Floats
-    small_weights: Weights
-    counts: Mapping[str, int]
-    shared_sums: dict[str, Floats] = field(default_factory=dict, repr=False)
-
-    @property
-    def key(self) -> tuple[str, str]:
-        """Scope and subset by name."""
-        return self.scope.name, self.subset
-
-    def sum_by_pair(self, columns: Floats) -> Floats:
-        """Sum columns, (n_columns, n_cell_trials), within pairs; (n_columns, n_cell_pairs)."""
-        sums = np.zeros((len(columns), len(self.weights)))
-        if self.positions.size:
-            order, starts, pairs = self._runs
-            sums[:, pairs] = np.add.reduceat(columns[:, order], starts, axis=1)
-        return sums
-
-    @cached_property
-    def _runs(self) -> tuple[Integers, Integers, Integers]:
-        """Bring the trials of a pair together, and say where each pair begins and which it is."""
-        order = np.argsort(self.positions, kind="stable")
-        starts = np.flatnonzero(np.diff(self.positions[order], prepend=-1))
-        return order, starts, self.positions[order][starts]
-
-
-@dataclass(frozen=True)
 class Yardstick:
     """A reference with its resamples, its cells, and how well people agree with each other."""
 
     reference: Reference
     draws: Draws
     _cells: dict[tuple[str, str], Cell] = field(default_factory=dict, repr=False)
+    _cross_cells: dict[tuple[str, str], tuple[CrossCell, ...]] = field(default_factory=dict, repr=False)
+    _drawn: dict[int, DrawnPairs] = field(default_factory=dict, repr=False)
     _people: dict[str, tuple[Integers, Floats]] = field(default_factory=dict, repr=False)
+    _ceilings: dict[tuple[str, str], Floats] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, reference: Reference) -> Self:
@@ -110,10 +65,13 @@ class Yardstick:
         panel = self.find_panel(cell)
         return panel.reliability if panel else None
 
-    def find_crossfit(self, cell: Cell) -> CrossFit | None:
+    def find_cross_cells(self, cell: Cell) -> tuple[CrossCell, ...]:
         """Give the cross-fitted subsets of a cell, if it is a whole property with single responses."""
-        panel = self.find_panel(cell)
-        return panel.crossfit if panel else None
+        if cell.key not in self._cross_cells:
+            panel = self.find_panel(cell)
+            crossfit = panel.crossfit if panel else None
+            self._cross_cells[cell.key] = cross_cells(cell, crossfit) if crossfit else ()
+        return self._cross_cells[cell.key]
 
     def resample_reliability(self, reliability: Reliability, cell: Cell) -> Floats:
         """Give a reliability on every resample, to first order; (n_resamples,)."""
@@ -123,10 +81,22 @@ class Yardstick:
         n_people, n_trials = reliability.response_influence.shape
         persons = np.repeat(np.arange(n_people), n_trials)
         by_person = on_grid(gather_people(reliability.response_influence.ravel(), persons), INFLUENCE_BITS)
-        moved: Floats = (by_pair @ cell.weights)[0] - by_pair.sum() + reliability.value
+        moved: Floats = (by_pair @ cell.drawn.weights)[0] - by_pair.sum() + reliability.value
         if by_person.size:
-            moved += by_person @ self.draw_people(cell)[1] - by_person.sum()
+            moved += by_person @ self.draw_people(cell)[1]
         return np.minimum(moved, 1, out=moved)
+
+    def resample_ceiling(self, cell: Cell) -> Floats | None:
+        """Give the root of the reliability of the human means on every resample; NaN where there is none.
+
+        None where the cell is no whole property, or people's reliability has no value there.
+        """
+        found = self.find_reliability(cell)
+        if found is None or isinstance(found.value, Undefined):
+            return None
+        if cell.key not in self._ceilings:
+            self._ceilings[cell.key] = root(self.resample_reliability(found, cell))
+        return self._ceilings[cell.key]
 
     def list_cells(self, covered: Booleans) -> list[Cell]:
         """List the subsets of the properties and scenarios that are wholly covered, in order.
@@ -138,16 +108,34 @@ class Yardstick:
             self._find_cell(scope, subset) for scope in scopes for subset in subsets_of(scope, self.masks)
         ]
 
+    def group_cells(self, covered: Booleans) -> list[list[Cell]]:
+        """List the same, the cells of each property and of its scenarios together."""
+        cells = self.list_cells(covered)
+        return [list(group) for _, group in groupby(cells, key=lambda cell: self._find_property(cell.scope))]
+
+    def _find_property(self, scope: Scope) -> int:
+        """Number the property that a scope is or belongs to."""
+        return int(self.reference.properties[np.argmax(scope.mask)])
+
     def _find_cell(self, scope: Scope, subset: str) -> Cell:
         key = (scope.name, subset)
         if key not in self._cells:
             mask = scope.mask & self.masks[subset]
-            chosen, positions = _choose_rows(self.reference.pairs[mask])
-            weights, small = self.draws.pairs[chosen], self.draws.small_pairs[chosen]
-            self._cells[key] = Cell(
-                scope, subset, mask, positions, weights, small, self._count(scope, subset)
-            )
+            drawn, ground = self._draw_pairs(scope), self._ground.select(mask)
+            self._cells[key] = Cell(scope, subset, mask, ground, drawn, self._count(scope, subset))
         return self._cells[key]
+
+    @cached_property
+    def _ground(self) -> Ground:
+        return lay_ground(self.reference)
+
+    def _draw_pairs(self, scope: Scope) -> DrawnPairs:
+        """Give the drawn pairs of the property that a scope is or belongs to."""
+        number = self._find_property(scope)
+        if number not in self._drawn:
+            rows = np.unique(self.reference.pairs[self.reference.properties == number])
+            self._drawn[number] = DrawnPairs.of(self.draws, rows)
+        return self._drawn[number]
 
     def _count(self, scope: Scope, subset: str) -> dict[str, int]:
         mask, people = scope.mask & self.masks[subset], self.reference.people
@@ -159,25 +147,28 @@ class Yardstick:
         return counts
 
     def draw_people(self, cell: Cell) -> tuple[Integers, Floats]:
-        """Find the people who judged a cell's property, and how often each is drawn.
+        """Find the people who judged a cell's property, and how often each is drawn, less 1.
 
         Returns
         -------
         people : (n_people,), weights : (n_people, n_resamples); empty where single responses are unknown
         """
-        if self.draws.people is None or not cell.mask.any():
+        further = self.draws.further_people
+        if further is None or not cell.mask.any():
             return np.zeros(0, np.int64), np.zeros((0, self.draws.pairs.shape[1]))
-        name = self.properties[int(self.reference.properties[np.argmax(cell.mask)])]
+        name = self.properties[self._find_property(cell.scope)]
         if name not in self._people:
             people = self.panels[name].people
-            self._people[name] = people, self.draws.people[people]
+            self._people[name] = people, further[find_run(people)]
         return self._people[name]
 
     def draw_effects(self, cell: Cell, pulls: Sequence[Floats]) -> Floats:
-        """Sum what drawn people add to metrics of a cell: their pull times how often they are drawn, less 1.
+        """Sum what drawn people add to metrics: their pull times how often they are drawn, less 1.
 
         Parameters
         ----------
+        cell
+            That of the metrics, or one of several of the same property, none of them empty.
         pulls : n_metrics of (at most n_participants,)
             Derivatives by the weight of each person, as far as there are any.
 
@@ -189,25 +180,19 @@ class Yardstick:
         stacked = np.zeros((len(pulls), int(people.max(initial=-1)) + 1))
         for row, pull in zip(stacked, pulls, strict=True):
             row[: pull.size] = pull
-        chosen = on_grid(stacked[:, people], INFLUENCE_BITS)
-        effects: Floats = chosen @ weights - chosen.sum(axis=1, keepdims=True)
+        effects: Floats = on_grid(stacked[:, people], INFLUENCE_BITS) @ weights
         return effects
+
+
+def root(reliability: Floats) -> Floats:
+    """Take square roots; NaN where there is none, since the reliability is not above 0."""
+    roots: Floats = np.sqrt(np.where(reliability > 0, reliability, np.nan))
+    return roots
 
 
 def subsets_of(scope: Scope, masks: dict[str, Booleans]) -> tuple[str, ...]:
     """Name the subsets that are scored in a scope: scenarios have only all."""
     return ("all",) if scope.kind == "scenario" else tuple(name for name in SUBSETS if name in masks)
-
-
-def _choose_rows(pairs: Integers) -> tuple[slice | Integers, Integers]:
-    """Choose the rows of some pairs' weights and say where each pair is among them.
-
-    Where pairs lie close together the rows are a slice, which needs no copy, with some others in between.
-    """
-    different, positions = np.unique(pairs, return_inverse=True)
-    if different.size and 2 * different.size > different[-1] - different[0]:
-        return slice(different[0], different[-1] + 1), pairs - different[0]
-    return different, positions
 
 
 def _count_pairs(reference: Reference, mask: Booleans) -> int:

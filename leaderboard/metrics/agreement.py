@@ -35,15 +35,11 @@ def human_r(predicted: Floats, observed: Floats) -> Estimate:
     >>> round(human_r(np.array([0.0, 0.5, 1.0]), np.array([0.2, 0.3, 0.4])), 6)
     1.0
     """
-    if predicted.size < MIN_TRIALS:
-        return TOO_FEW
+    constant = _find_constant(predicted, observed)
+    if constant:
+        return constant
     one_group = np.zeros(predicted.size, np.int64)
-    centred_predicted, centred_observed = _centre(predicted, one_group), _centre(observed, one_group)
-    if not centred_predicted.any():
-        return CONSTANT_PREDICTED
-    if not centred_observed.any():
-        return CONSTANT_OBSERVED
-    return _correlate(centred_predicted, centred_observed)
+    return _correlate(_centre(predicted, one_group), _centre(observed, one_group))
 
 
 def human_r_normalized(r: Estimate, reliability: Estimate) -> Estimate:
@@ -78,9 +74,9 @@ def human_r_partial(predicted: Floats, observed: Floats, labels: Integers) -> Es
     >>> round(human_r_partial(predicted, observed, np.array([0, 0, 1, 1])), 6)
     -1.0
     """
-    plain = human_r(predicted, observed)
-    if isinstance(plain, Undefined):
-        return plain
+    constant = _find_constant(predicted, observed)
+    if constant:
+        return constant
     residual_predicted, residual_observed = _centre(predicted, labels), _centre(observed, labels)
     if not residual_predicted.any():
         return LABEL_EXPLAINS_PREDICTED
@@ -147,6 +143,15 @@ def answers_of(probabilities: Floats) -> Floats:
     array([0. , 0.5, 1. ])
     """
     return (1 + np.sign(probabilities - 0.5)) / 2
+
+
+def _find_constant(predicted: Floats, observed: Floats) -> Undefined | None:
+    """Say why there is no correlation, if there is none."""
+    if predicted.size < MIN_TRIALS:
+        return TOO_FEW
+    if (predicted == predicted[0]).all():
+        return CONSTANT_PREDICTED
+    return CONSTANT_OBSERVED if (observed == observed[0]).all() else None
 
 
 def _centre(values: Floats, groups: Integers) -> Floats:

@@ -52,18 +52,18 @@ def spread_to_responses(slopes: Floats, responses: Responses, n: Integers, n_yes
 
     Parameters
     ----------
-    slopes : (n_trials,)
-        Derivatives by the human mean of each trial.
+    slopes : (..., n_trials)
+        Derivatives by the human mean of each trial, of one metric or several.
     responses : (n_responses,) each
         Trial, person and answer.
     n, n_yes : (n_trials,)
 
     Returns
     -------
-    (n_responses,)
+    (..., n_responses)
     """
     trials, _, answers = responses
-    pulls: Floats = slopes[trials] * (answers - n_yes[trials] / n[trials]) / n[trials]
+    pulls: Floats = slopes[..., trials] * (answers - n_yes[trials] / n[trials]) / n[trials]
     return pulls
 
 

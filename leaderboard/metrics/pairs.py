@@ -31,8 +31,11 @@ def find_pairs(pairs: Integers) -> NDArray[np.intp]:
     array([[0, 2]])
     """
     order = np.argsort(pairs, kind="stable")
-    starts = np.flatnonzero(np.diff(pairs[order], prepend=-1, append=-1))
-    first = starts[:-1][np.diff(starts) == 2]  # noqa: PLR2004  (a pair has two members)
+    ordered = pairs[order]
+    is_start = np.ones(pairs.size + 1, bool)
+    is_start[1:-1] = ordered[1:] != ordered[:-1]
+    starts = np.flatnonzero(is_start)
+    first = starts[:-1][starts[1:] - starts[:-1] == 2]  # noqa: PLR2004  (a pair has two members)
     return np.column_stack([order[first], order[first + 1]])
 
 

@@ -6,6 +6,7 @@ Everywhere ``shares`` says in whole numbers what each pair of trials adds to a s
 
 from math import inf
 from statistics import NormalDist
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +17,12 @@ from leaderboard.metrics.undefined import Estimate, Undefined
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
+Weights = NDArray[np.number[Any]]
+Scores = NDArray[np.floating[Any]]
 
 ALPHA = 0.05
 POWER = 0.8
+EXACT_IN_FLOAT32 = 2**24
 MAX_COMPARISONS = 600_000_000
 MIN_RESAMPLES = 1000
 ONE_SYSTEM = Undefined("there are fewer than two different systems")
@@ -30,7 +34,31 @@ ROUNDING = 1e-9
 """A variance this small beside those it is the difference of is what rounding leaves of none."""
 
 
-def find_rank_sets(shares: Integers, strata: Integers, weights: Floats) -> Integers:
+def resample_scores(shares: Integers, weights: Weights) -> Scores:
+    """Compute the score of each system on each resample, in float32 where that is exact, else in float64.
+
+    Parameters
+    ----------
+    weights : (n_resamples, n_pairs)
+        How often each pair is drawn, from ``draw_weights``.
+
+    Returns
+    -------
+    (n_systems, n_resamples), whole numbers
+
+    Examples
+    --------
+    >>> resample_scores(np.array([[2, 0], [0, 1]]), np.array([[1, 1], [0, 2]]))
+    array([[2., 0.],
+           [1., 2.]], dtype=float32)
+    """
+    largest = int(np.abs(shares).max(initial=0)) * shares.shape[1]
+    kind = np.float32 if largest < EXACT_IN_FLOAT32 else np.float64
+    scores: Scores = shares.astype(kind) @ weights.T.astype(kind, copy=False)
+    return scores
+
+
+def find_rank_sets(shares: Integers, strata: Integers, resampled: Scores) -> Integers:
     """Find the 95 % rank set of each system: the ranks that paired tests against all rivals do not exclude.
 
     With s the scores, a rival j of system i is significantly better if t = (s_j - s_i) / se_ij exceeds the
@@ -47,30 +75,31 @@ def find_rank_sets(shares: Integers, strata: Integers, weights: Floats) -> Integ
     ----------
     strata : (n_pairs,)
         Within what pairs were drawn.
-    weights : (n_resamples, n_pairs)
-        How often each pair is drawn, from ``draw_weights``.
+    resampled : (n_systems, n_resamples)
+        From ``resample_scores``.
 
     Returns
     -------
     (n_systems, 2), lowest and highest rank, 1 being the best
     """
-    different, copies, counts = _find_different(shares)
+    different, first, copies, counts = _find_different(shares)
     scores = different.sum(axis=1)
     errors = _standard_errors(different, strata)
     n_used = max(MIN_RESAMPLES, MAX_COMPARISONS // len(different) ** 2)
-    moved = different.astype(np.float64) @ weights[:n_used].T.astype(np.float64, copy=False) - scores[:, None]
+    moved = resampled[first, :n_used] - scores[:, None].astype(resampled.dtype)
     critical = np.quantile(_find_largest(moved, errors), 1 - ALPHA, axis=1)[:, None] * (1 + MARGIN)
     t = _divide(scores - scores[:, None], errors)
     sets = np.column_stack([1 + (t > critical) @ counts, len(shares) - (t < -critical) @ counts])
     return sets[copies]
 
 
-def find_best_probabilities(shares: Integers, weights: Floats) -> Floats:
+def find_best_probabilities(resampled: Scores) -> Floats:
     """Find the share of resamples in which each system has the highest score; ties share equally.
 
     Parameters
     ----------
-    weights : (n_resamples, n_pairs)
+    resampled : (n_systems, n_resamples)
+        From ``resample_scores``.
 
     Returns
     -------
@@ -78,14 +107,12 @@ def find_best_probabilities(shares: Integers, weights: Floats) -> Floats:
 
     Examples
     --------
-    >>> find_best_probabilities(np.array([[2, 0], [0, 1], [0, 1]]), np.array([[1, 1], [0, 2]])).tolist()
+    >>> find_best_probabilities(np.array([[2.0, 0.0], [1.0, 2.0], [1.0, 2.0]])).tolist()
     [0.5, 0.25, 0.25]
     """
-    different, copies, counts = _find_different(shares)
-    resampled = different.astype(np.float64) @ weights.T.astype(np.float64, copy=False)
     is_best = resampled == resampled.max(axis=0)
-    wins: Floats = (is_best / (counts @ is_best)).mean(axis=1)
-    return wins[copies]
+    n_best = is_best.sum(axis=0)
+    return np.array([(wins / n_best).mean() for wins in is_best])  # one at a time stays in the cache
 
 
 def find_best_group(points: Integers, best: int) -> Booleans:
@@ -113,7 +140,7 @@ def find_best_group(points: Integers, best: int) -> Booleans:
     >>> find_best_group(points, 0).tolist()
     [True, True, False]
     """
-    different, copies, _ = _find_different(points[best] - np.delete(points, best, axis=0))
+    different, _, copies, _ = _find_different(points[best] - np.delete(points, best, axis=0))
     p = np.array([paired_p(row) for row in different])
     return np.insert(holm_adjust(p[copies]) >= ALPHA, best, values=True)
 
@@ -144,7 +171,7 @@ def detectable_difference(shares: Integers, strata: Integers) -> Estimate:
     strata : (n_pairs,)
         Within what pairs are drawn.
     """
-    different, _, _ = _find_different(shares)
+    different, _, _, _ = _find_different(shares)
     if len(different) <= 1:
         return ONE_SYSTEM
     errors = _standard_errors(different, strata)[np.triu_indices(len(different), 1)]
@@ -152,7 +179,7 @@ def detectable_difference(shares: Integers, strata: Integers) -> Estimate:
     return (normal.inv_cdf(1 - ALPHA / 2) + normal.inv_cdf(POWER)) * float(np.sqrt(np.mean(errors**2)))
 
 
-def _find_largest(moved: Floats, errors: Floats) -> NDArray[np.float32]:
+def _find_largest(moved: Scores, errors: Floats) -> NDArray[np.float32]:
     """Find, on each resample, the largest |t| of a system against any other, (n_systems, n_resamples).
 
     Parameters
@@ -161,7 +188,7 @@ def _find_largest(moved: Floats, errors: Floats) -> NDArray[np.float32]:
         How far each score is from its mean.
     errors : (n_systems, n_systems)
     """
-    small = moved.astype(np.float32)  # twice as fast, and a percentile needs no more digits
+    small = moved.astype(np.float32, copy=False)  # twice as fast, and a percentile needs no more digits
     inverse = np.where(errors > 0, 1 / np.where(errors > 0, errors, 1), 0).astype(np.float32)
     largest = np.zeros_like(small)
     for i in range(len(small) - 1):
@@ -172,10 +199,12 @@ def _find_largest(moved: Floats, errors: Floats) -> NDArray[np.float32]:
     return largest
 
 
-def _find_different(shares: Integers) -> tuple[Integers, Integers, Integers]:
-    """Find the different rows, which of them each row is, and how often each occurs."""
-    different, copies, counts = np.unique(shares, axis=0, return_inverse=True, return_counts=True)
-    return different, copies.ravel(), counts
+def _find_different(shares: Integers) -> tuple[Integers, Integers, Integers, Integers]:
+    """Find the different rows, where each is first, which of them each row is, and how often each occurs."""
+    different, first, copies, counts = np.unique(
+        shares, axis=0, return_index=True, return_inverse=True, return_counts=True
+    )
+    return different, first, copies.ravel(), counts
 
 
 def _standard_errors(shares: Integers, strata: Integers) -> Floats:

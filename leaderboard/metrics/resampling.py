@@ -15,6 +15,9 @@ Counts = NDArray[np.uint16]
 TAILS = (0.025, 0.975)
 CHUNK = 1000  # resamples at a time stay in the processor's cache; even, so that no random number is split
 
+PROBE = 16  # one in so many resamples tells about where the tails begin
+REACH = 2.5  # times as far as needed: NumPy finds more than a tenth of all faster than fewer
+
 INFLUENCE_BITS = 30
 """Derivatives are rounded to multiples of 2^-30 before they are summed."""
 
@@ -97,17 +100,19 @@ def percentile_interval(value: float, resampled: Floats) -> Interval | Undefined
     >>> percentile_interval(0.5, np.arange(0.0, 41.0))
     Interval(value=0.5, low=1.0, high=39.0, n_undefined=0)
     """
-    ordered = np.sort(resampled)  # NaN goes to the end; one at a time stays in the processor's cache
-    n_undefined = int(np.isnan(ordered).sum()) if np.isnan(ordered[-1]) else 0
-    last = ordered.size - n_undefined - 1
+    has_undefined = np.isnan(np.maximum.reduce(resampled, initial=0))  # the largest is NaN if any value is
+    defined = resampled[~np.isnan(resampled)] if has_undefined else resampled
+    last = defined.size - 1
     if last < 0:
         return ALWAYS_UNDEFINED
+    places = [floor(tail * last) for tail in TAILS]
+    ordered = _sort_tails(defined, places[0] + 2, defined.size - places[1])
+    n_left_out = defined.size - ordered.size
     ends = []
-    for tail in TAILS:
-        below = floor(tail * last)
-        lower, upper = float(ordered[below]), float(ordered[min(below + 1, last)])
+    for tail, below, n_before in zip(TAILS, places, (0, n_left_out), strict=True):
+        lower, upper = (float(ordered[place - n_before]) for place in (below, min(below + 1, last)))
         ends.append(lower + (upper - lower) * (tail * last - below))
-    return Interval(value, ends[0], ends[1], n_undefined)
+    return Interval(value, ends[0], ends[1], resampled.size - defined.size)
 
 
 def on_grid(values: Floats, bits: int = 20) -> Floats:
@@ -121,6 +126,23 @@ def on_grid(values: Floats, bits: int = 20) -> Floats:
     """
     rounded: Floats = np.rint(np.ldexp(values, bits))
     return np.ldexp(rounded, -bits)
+
+
+def _sort_tails(values: Floats, n_lowest: int, n_highest: int) -> Floats:
+    """Sort without the middle: at least so many of the lowest values, then at least so many of the highest.
+
+    Where the tails begin is guessed from every 16th value, generously. Where that was not enough, or there
+    are few values, all are sorted.
+    """
+    probe = np.sort(values[::PROBE])
+    reach = min(int(REACH * max(n_lowest, n_highest)) // PROBE, probe.size - 1)
+    is_low, is_high = values <= probe[reach], values >= probe[-1 - reach]
+    if np.count_nonzero(is_low) < n_lowest or np.count_nonzero(is_high) < n_highest:
+        return np.sort(values)
+    is_low |= is_high
+    tails: Floats = values.take(is_low.nonzero()[0])
+    tails.sort()
+    return tails
 
 
 def _draw_below(bits: np.random.PCG64, bound: int, n_rows: int) -> Integers:

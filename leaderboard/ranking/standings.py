@@ -10,6 +10,7 @@ from leaderboard.metrics.ranks import (
     find_best_group,
     find_best_probabilities,
     find_rank_sets,
+    resample_scores,
 )
 from leaderboard.metrics.undefined import Estimate, Undefined
 from leaderboard.ranking.entries import Entry
@@ -50,9 +51,10 @@ def find_standings(entries: Sequence[Entry], yardstick: Yardstick) -> tuple[list
     """
     reference = yardstick.reference
     shares = share_out([entry.credits for entry in entries], reference)
-    strata, weights = find_strata(reference), yardstick.draws.pairs.T
-    sets = find_rank_sets(shares, strata, weights).tolist()
-    best = find_best_probabilities(shares, weights).tolist()
+    strata = find_strata(reference)
+    resampled = resample_scores(shares, yardstick.draws.small_pairs.T)
+    sets = find_rank_sets(shares, strata, resampled).tolist()
+    best = find_best_probabilities(resampled).tolist()
     group = find_best_group(count_points([entry.credits for entry in entries], reference), best=0).tolist()
     detectable = detectable_difference(shares, strata)
     standings = [

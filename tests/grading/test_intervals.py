@@ -210,6 +210,32 @@ def test_the_same_draws_serve_every_submission() -> None:
     assert isinstance(tally_scores(observe(REFERENCE), EVERYTHING, yardstick), Tally)
 
 
+@pytest.mark.parametrize("reference", [REFERENCE, COUNTS], ids=["responses", "counts"])
+def test_scores_are_the_same_whether_resamples_are_kept(reference: Reference) -> None:
+    """Intervals made at once, from memory that then serves the next, are those made in the end."""
+    yardstick, o = Yardstick.of(reference), observe(reference)
+    kept = tally_scores(o, EVERYTHING, yardstick)
+    dropped = tally_scores(o, EVERYTHING, yardstick, keeps_resamples=False)
+    scopes = list(kept.estimates)
+    assert kept.assemble(scopes) == dropped.assemble(scopes)
+    assert kept.resampled
+    assert not dropped.resampled
+
+
+@pytest.mark.parametrize("subsets", [("all",), ("easy", "hard"), ("all", "easy_crossfit")], ids=str)
+def test_a_subset_is_scored_the_same_without_the_others(subsets: tuple[str, ...]) -> None:
+    """Who wants only some gets only these, with the same resamples."""
+    yardstick, o = Yardstick.of(REFERENCE), observe(REFERENCE)
+    whole = tally_scores(o, EVERYTHING, yardstick)
+    part = tally_scores(o, EVERYTHING, yardstick, subsets=subsets)
+    assert {subset for scope in part.estimates.values() for subset in scope} == set(subsets)
+    for scope, scores in part.estimates.items():
+        assert scores == {subset: whole.estimates[scope][subset] for subset in scores}
+    assert part.resampled
+    for key, values in part.resampled.items():
+        np.testing.assert_array_equal(values, whole.resampled[key])
+
+
 def test_a_reference_too_large_for_float32_gives_the_same_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is summed in float32 while that is exact is summed in float64 beyond."""
     small = tally_scores(observe(REFERENCE), EVERYTHING, Yardstick.of(REFERENCE)).resampled

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from leaderboard.metrics.calibration import auc, brier, ece, yes_rate
+from leaderboard.metrics.calibration import auc, brier, count_outranked, ece, yes_rate
 from leaderboard.metrics.undefined import Undefined
 
 NOTHING = np.array([])
@@ -101,3 +101,24 @@ def test_without_trials_nothing_is_defined() -> None:
     assert brier(NOTHING, NO_LABELS) == NO_TRIALS
     assert ece(NOTHING, NO_LABELS) == NO_TRIALS
     assert yes_rate(NOTHING) == NO_TRIALS
+
+
+TRIAL_LISTS = st.lists(st.tuples(st.sampled_from([0.0, 0.2, 0.5, 0.6, 1.0]), st.integers(0, 1)), max_size=12)
+
+
+@given(TRIAL_LISTS, st.integers(0, 2**32), st.sampled_from([np.uint16, np.uint32]))
+def test_outranked_trials_are_those_of_a_loop_over_drawn_trials(
+    trials: list[tuple[float, int]], seed: int, kind: type
+) -> None:
+    """Each drawn YES trial against each drawn NO trial, two trials a pair, ties 1/2."""
+    probabilities, labels = np.array(trials).reshape(-1, 2).T
+    positions = np.arange(labels.size) // 2
+    drawn: np.ndarray = np.random.default_rng(seed).integers(0, 4, (6, 5)).astype(kind)
+    expected = np.zeros(5)
+    for i, (q_yes, label) in enumerate(trials):
+        for j, (q_no, other) in enumerate(trials):
+            if label == 1 and other == 0:
+                times = drawn[positions[i]].astype(float) * drawn[positions[j]]
+                expected += times * ((q_yes > q_no) + (q_yes == q_no) / 2)
+    found = count_outranked(probabilities, labels.astype(np.int64), positions, drawn)
+    assert found.tolist() == expected.tolist()

@@ -15,6 +15,7 @@ from leaderboard.metrics.ranks import (
     find_best_probabilities,
     find_rank_sets,
     holm_adjust,
+    resample_scores,
 )
 from leaderboard.metrics.resampling import draw_weights
 from leaderboard.metrics.undefined import Undefined
@@ -24,6 +25,11 @@ Integers = NDArray[np.int64]
 STRATA = np.repeat([0, 1, 2], [4, 5, 3])
 WEIGHTS = draw_weights(STRATA, 200, seed=5, stream=0).astype(np.float64)
 SHARES = st.lists(st.lists(st.integers(0, 2), min_size=12, max_size=12), min_size=2, max_size=6).map(np.array)
+
+
+def rank_sets(shares: Integers, strata: Integers, weights: NDArray[np.float64]) -> Integers:
+    """Find the rank sets on these resamples."""
+    return find_rank_sets(shares, strata, resample_scores(shares, weights))
 
 
 def loop_over_rank_sets(shares: Integers) -> list[list[int]]:
@@ -57,14 +63,14 @@ def loop_over_rank_sets(shares: Integers) -> list[list[int]]:
 @given(SHARES)
 def test_rank_sets_equal_a_loop_over_systems_rivals_and_resamples(shares: Integers) -> None:
     """With ties, equal systems, and differences that are the same on every pair."""
-    assert find_rank_sets(shares, STRATA, WEIGHTS).tolist() == loop_over_rank_sets(shares)
+    assert rank_sets(shares, STRATA, WEIGHTS).tolist() == loop_over_rank_sets(shares)
 
 
 @given(SHARES)
 def test_a_rank_set_holds_the_ranks_that_the_scores_give(shares: Integers) -> None:
     """All ranks that ties could be given are inside."""
     scores = shares.sum(axis=1)
-    for score, (low, high) in zip(scores, find_rank_sets(shares, STRATA, WEIGHTS), strict=True):
+    for score, (low, high) in zip(scores, rank_sets(shares, STRATA, WEIGHTS), strict=True):
         assert low <= 1 + (scores > score).sum()
         assert (scores >= score).sum() <= high
 
@@ -75,30 +81,30 @@ def test_the_order_of_systems_does_not_matter(shares: Integers, random: object) 
     order = list(range(len(shares)))
     random.shuffle(order)  # type: ignore[attr-defined]
     turned = shares[order]
-    assert (find_rank_sets(turned, STRATA, WEIGHTS) == find_rank_sets(shares, STRATA, WEIGHTS)[order]).all()
-    found = find_best_probabilities(turned, WEIGHTS)
-    assert found == pytest.approx(find_best_probabilities(shares, WEIGHTS)[order])
+    assert (rank_sets(turned, STRATA, WEIGHTS) == rank_sets(shares, STRATA, WEIGHTS)[order]).all()
+    found = find_best_probabilities(resample_scores(turned, WEIGHTS))
+    assert found == pytest.approx(find_best_probabilities(resample_scores(shares, WEIGHTS))[order])
 
 
 def test_a_clearly_better_system_has_the_first_rank_alone() -> None:
     """And the worse ones share the others."""
     shares = np.array([[2] * 11 + [1], [0, 1] * 6, [1, 0] * 6])
-    assert find_rank_sets(shares, STRATA, WEIGHTS).tolist() == [[1, 1], [2, 3], [2, 3]]
+    assert rank_sets(shares, STRATA, WEIGHTS).tolist() == [[1, 1], [2, 3], [2, 3]]
 
 
 def test_one_system_has_rank_one() -> None:
     """There is nobody to compare it with."""
-    assert find_rank_sets(np.ones((1, 12), np.int64), STRATA, WEIGHTS).tolist() == [[1, 1]]
-    assert find_best_probabilities(np.ones((1, 12), np.int64), WEIGHTS).tolist() == [1.0]
+    assert rank_sets(np.ones((1, 12), np.int64), STRATA, WEIGHTS).tolist() == [[1, 1]]
+    assert find_best_probabilities(resample_scores(np.ones((1, 12), np.int64), WEIGHTS)).tolist() == [1.0]
     assert find_best_group(np.ones((1, 12), np.int64), 0).tolist() == [True]
 
 
 def test_sixty_copies_are_one_system_that_takes_sixty_ranks() -> None:
     """Copies get the same set, and a worse system comes after all of them."""
     shares = np.array([[2, 1] * 6] * 60 + [[0, 0] * 6])
-    sets = find_rank_sets(shares, STRATA, WEIGHTS).tolist()
+    sets = rank_sets(shares, STRATA, WEIGHTS).tolist()
     assert sets == [[1, 60]] * 60 + [[61, 61]]
-    assert find_best_probabilities(shares, WEIGHTS)[:60] == pytest.approx(1 / 60)
+    assert find_best_probabilities(resample_scores(shares, WEIGHTS))[:60] == pytest.approx(1 / 60)
 
 
 def test_many_systems_are_compared_on_fewer_resamples() -> None:
@@ -106,8 +112,16 @@ def test_many_systems_are_compared_on_fewer_resamples() -> None:
     rng = np.random.default_rng(1)
     shares = rng.binomial(2, 0.6, (900, 12))
     weights = draw_weights(STRATA, 1500, seed=1, stream=0).astype(np.float64)
-    sets, scores = find_rank_sets(shares, STRATA, weights), shares.sum(axis=1)
+    sets, scores = rank_sets(shares, STRATA, weights), shares.sum(axis=1)
     assert (sets[:, 0] <= 1 + (scores > scores[:, None]).sum(axis=1)).all()
+
+
+@given(SHARES, st.sampled_from([1, 10**6]))
+def test_scores_on_resamples_are_whole_and_exact(shares: Integers, unit: int) -> None:
+    """Also beyond what float32 holds."""
+    found = resample_scores(unit * shares, WEIGHTS)
+    assert found.dtype == (np.float32 if unit * shares.max() * 12 < 2**24 else np.float64)
+    assert (found == unit * shares @ WEIGHTS.T.astype(np.int64)).all()
 
 
 @given(SHARES)
@@ -117,7 +131,7 @@ def test_chances_to_be_the_best_equal_a_loop_and_add_up_to_one(shares: Integers)
     for weights in WEIGHTS:
         scores = (shares * weights.astype(int)).sum(axis=1)
         wins += (scores == scores.max()) / (scores == scores.max()).sum()
-    found = find_best_probabilities(shares, WEIGHTS)
+    found = find_best_probabilities(resample_scores(shares, WEIGHTS))
     assert found == pytest.approx(wins / len(WEIGHTS))
     assert found.sum() == pytest.approx(1)
 
@@ -165,7 +179,7 @@ def test_a_difference_that_is_the_same_on_every_pair_of_a_stratum_is_significant
     """It has no error: 1 more on each pair of one stratum puts a system before its rival, both ways."""
     rival = np.array([3, 7, 1, 5, 2, 9, 4, 6, 8, 1, 0, 2]) * 1001
     better = rival + (STRATA == 0)
-    assert find_rank_sets(np.array([rival, better]), STRATA, WEIGHTS).tolist() == [[2, 2], [1, 1]]
+    assert rank_sets(np.array([rival, better]), STRATA, WEIGHTS).tolist() == [[2, 2], [1, 1]]
 
 
 def test_equal_scores_without_error_are_not_significant() -> None:
@@ -174,7 +188,7 @@ def test_equal_scores_without_error_are_not_significant() -> None:
     weights = draw_weights(strata, 200, seed=5, stream=0).astype(np.float64)
     first = np.array([3, 7, 1, 5, 2, 9, 4, 6, 8, 1, 0, 2])
     second = first + np.where(strata == 0, 1, -1)
-    assert find_rank_sets(np.array([first, second]), strata, weights).tolist() == [[1, 2], [1, 2]]
+    assert rank_sets(np.array([first, second]), strata, weights).tolist() == [[1, 2], [1, 2]]
 
 
 def test_the_best_group_is_drawn_at_five_percent() -> None:
@@ -201,6 +215,6 @@ def test_many_systems_use_the_first_thousand_resamples() -> None:
     assert len(shares) > 775  # 600,000,000 / 775^2 is 999
     others = weights.copy()
     others[1000:] = 1
-    fewer = find_rank_sets(shares, STRATA, weights[:1000])
-    assert (find_rank_sets(shares, STRATA, weights) == fewer).all()
-    assert (find_rank_sets(shares, STRATA, others) == fewer).all()
+    fewer = rank_sets(shares, STRATA, weights[:1000])
+    assert (rank_sets(shares, STRATA, weights) == fewer).all()
+    assert (rank_sets(shares, STRATA, others) == fewer).all()

@@ -63,6 +63,31 @@ def test_interval_is_of_the_defined_resamples_and_counts_the_others() -> None:
     assert percentile_interval(3.0, np.full(5, np.nan)) == Undefined("it has no value in any resample")
 
 
+@given(
+    size=st.integers(1, 3000),
+    decimals=st.integers(0, 8),
+    order=st.sampled_from(["drawn", "ascending", "tails where nobody looks"]),
+    n_undefined=st.integers(0, 50),
+    seed=st.integers(0, 2**32),
+)
+def test_interval_is_that_of_all_values_sorted(
+    size: int, decimals: int, order: str, n_undefined: int, seed: int
+) -> None:
+    """Whatever is left unsorted in the middle: with ties, in any order, with values missing."""
+    rng = np.random.default_rng(seed)
+    values = rng.normal(size=size).round(decimals)
+    if order != "drawn":
+        values.sort()
+    if order == "tails where nobody looks":
+        values[::16] = 0
+    expected = np.quantile(values, [0.025, 0.975])
+    resampled = np.insert(values, rng.integers(0, size, n_undefined), np.nan)
+    found = percentile_interval(0.0, resampled)
+    assert isinstance(found, Interval)
+    assert (found.low, found.high) == pytest.approx(expected, abs=1e-12)
+    assert found.n_undefined == n_undefined
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_interval_of_a_mean_equals_scipy_bootstrap(seed: int) -> None:
     """On the same data SciPy's percentile interval is the same but for the noise of other draws."""
