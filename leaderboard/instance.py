@@ -10,10 +10,13 @@ MANIFEST_FILE = "manifest.json"
 HUMAN_TRIALS_FILE = "human_trials.csv"
 HUMAN_RESPONSES_FILE = "human_responses.csv"
 PUBLISHED_FILE = "published.csv"
+ERRATA_FILE = "errata.toml"
 SUBMISSION_FILE = "submission.toml"
 PREDICTIONS_FILE = "predictions.csv"
 RESULT_FILE = "result.json"
 LEDGER_FILE = "ledger.csv"
+ABOUT_FILE = "about.md"
+CITATION_FILE = "citation.bib"
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,10 @@ class Instance:
     def site_dir(self) -> Path:
         """The folder of the website's own texts and of its output."""
         return self.root / "site"
+
+    def content_file(self, name: str) -> Path:
+        """A text that the maintainers of the website write."""
+        return self.site_dir / "content" / name
 
     @property
     def dist_dir(self) -> Path:

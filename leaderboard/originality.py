@@ -17,7 +17,8 @@ def load_others(
     """Load the valid submissions of other teams, by slug.
 
     Baselines are no one's work, and a team may resemble itself: neither is loaded, and for a bare
-    predictions file, whose team is not known, nothing is. What is not valid is skipped: it is on no board.
+    predictions file, whose team is not known, nothing is. A team is a name with a contact: the name alone
+    anybody could write. What is not valid is skipped: it is on no board.
     """
     if raw.slug is None:
         return ()
@@ -28,7 +29,7 @@ def load_others(
         metadata = _read_metadata(other, reference, today)
         if folder.name == raw.slug or metadata is None or metadata.is_baseline:
             continue
-        if own is None or metadata.submission.team != own.submission.team:
+        if own is None or metadata.owner != own.owner:
             found = validate(other, reference, today=today).submission
             others += [] if found is None else [found]
     return tuple(others)

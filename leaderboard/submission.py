@@ -1,6 +1,5 @@
 """Submissions as they are on disk (raw, unjudged) and as they are once found valid."""
 
-import os
 import stat
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from leaderboard.files import read_regular
+from leaderboard.files import TEMPORARY_PREFIX, read_regular
 from leaderboard.instance import PREDICTIONS_FILE, RESULT_FILE, SUBMISSION_FILE
 from leaderboard.models import Metadata
 
@@ -87,6 +86,8 @@ class Submission:
 def read_submission(folder: Path, location: str) -> RawSubmission:
     """Read a submission's folder without judging or following anything in it.
 
+    What a killed run left half-written, or another is about to write, is no part of it.
+
     Parameters
     ----------
     folder
@@ -94,8 +95,8 @@ def read_submission(folder: Path, location: str) -> RawSubmission:
     location
         How messages should name it.
     """
-    entries = sorted(os.scandir(folder), key=lambda entry: entry.name)
-    files = tuple(_read_entry(Path(entry.path)) for entry in entries)
+    paths = sorted(path for path in folder.iterdir() if not path.name.startswith(TEMPORARY_PREFIX))
+    files = tuple(_read_entry(path) for path in paths)
     return RawSubmission(location, folder.absolute().name, files)
 
 

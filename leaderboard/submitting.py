@@ -3,6 +3,7 @@
 import csv
 import datetime as dt
 import re
+import tomllib
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,7 +13,7 @@ import tomli_w
 
 from leaderboard.assessing import Assessment, assess
 from leaderboard.errors import LeaderboardError, SourceError
-from leaderboard.files import read_regular, write_atomic, write_folder
+from leaderboard.files import hold_folder, read_regular, remove_leftovers, write_atomic, write_folder
 from leaderboard.grading import result_bytes
 from leaderboard.ids import is_slug
 from leaderboard.instance import PREDICTIONS_FILE, RESULT_FILE, SUBMISSION_FILE, Instance
@@ -21,6 +22,7 @@ from leaderboard.problems import Problem
 from leaderboard.reference import Reference
 from leaderboard.submission import SIZE_LIMITS, RawFile, RawSubmission
 from leaderboard.validation import validate
+from leaderboard.validation.translating import TranslatedName, translate_names
 
 Metadata = Mapping[str, Mapping[str, object]]
 
@@ -61,6 +63,42 @@ def read_prediction_file(path: Path) -> PredictionFile:
     return PredictionFile(str(path), content)
 
 
+def read_metadata(path: Path) -> Metadata:
+    """Read metadata in the form of ``submission.toml``, whole or in part; its keys are judged later.
+
+    Raises
+    ------
+    SourceError
+        If it is too large, no UTF-8, no TOML, or has keys outside of sections.
+    """
+    limit = SIZE_LIMITS[SUBMISSION_FILE]
+    content = read_regular(path, limit)
+    if content is None:
+        raise SourceError(f"{path} is larger than {limit:,} bytes", f"is it a {SUBMISSION_FILE}?")
+    hint = f"docs/submitting.md shows what a {SUBMISSION_FILE} looks like"
+    try:
+        sections = tomllib.loads(content.removeprefix(_BOM).decode())
+    except UnicodeDecodeError:
+        raise SourceError(f"{path}: is not UTF-8 text", hint) from None
+    except (ValueError, RecursionError) as error:
+        raise SourceError(f"{path}: is not TOML: {error}", hint) from None
+    for section, keys in sections.items():
+        if not isinstance(keys, dict):
+            raise SourceError(f"{path}: {section} stands outside of a section", hint)
+    return sections
+
+
+def translate_files(
+    files: Sequence[PredictionFile], reference: Reference
+) -> tuple[list[PredictionFile], list[TranslatedName]]:
+    """Write trial ids in place of the names that other tools use, and list what was translated."""
+    translations = [translate_names(file.content, reference) for file in files]
+    translated = [
+        replace(file, content=content) for file, (content, _) in zip(files, translations, strict=True)
+    ]
+    return translated, [name for _, names in translations for name in names]
+
+
 def add_submission(
     instance: Instance,
     reference: Reference,
@@ -73,7 +111,28 @@ def add_submission(
     """Make a submission's folder from prediction files and metadata.
 
     The folder is written only if the assessment has no error, and then whole: metadata, predictions and
-    result. Problems name the participant's own files and lines.
+    result.
+    """
+    assessment = draft_submission(instance, reference, slug, metadata=metadata, files=files, today=today)
+    if assessment.result is not None:
+        with hold_folder(instance.submissions_dir):
+            remove_leftovers(instance.submissions_dir)
+            write_folder(instance.submission_dir(slug), submission_contents(assessment))
+    return assessment
+
+
+def draft_submission(
+    instance: Instance,
+    reference: Reference,
+    slug: str,
+    *,
+    metadata: Metadata,
+    files: Sequence[PredictionFile],
+    today: dt.date,
+) -> Assessment:
+    """Assess what a submission's folder would hold, and write nothing.
+
+    Problems name the participant's own files and lines.
     """
     problems = _judge_slug(instance, slug) + _judge_parts(files, reference, today)
     toml = render_metadata(metadata)
@@ -86,7 +145,6 @@ def add_submission(
     assessment = replace(assessment, problems=(*problems, *found))
     if assessment.result is None or problems:
         return replace(assessment, submission=None, result=None)
-    write_folder(instance.submission_dir(slug), _contents(assessment))
     return assessment
 
 
@@ -110,16 +168,20 @@ def replace_submission(
     assessment = assess(raw, reference, today=today)
     if assessment.result is None:
         raise LeaderboardError(f"generated submission {slug} is not valid: {assessment.problems[0].message}")
-    contents = _contents(assessment)
+    contents = submission_contents(assessment)
     folder = instance.submission_dir(slug)
-    if folder.exists():
+    instance.submissions_dir.mkdir(parents=True, exist_ok=True)
+    with hold_folder(instance.submissions_dir):
+        remove_leftovers(instance.submissions_dir)
+        if not folder.exists():
+            write_folder(folder, contents)
+            return
+        remove_leftovers(folder)
         for name, content in contents.items():
             write_atomic(folder / name, content)
-    else:
-        write_folder(folder, contents)
 
 
-def _contents(assessment: Assessment) -> dict[str, bytes]:
+def submission_contents(assessment: Assessment) -> dict[str, bytes]:
     """Map the names of a graded submission's files to their bytes."""
     contents = {file.name: file.content for file in assessment.raw.files if file.content is not None}
     if assessment.result is not None:
@@ -206,13 +268,13 @@ def _is_of_file(problem: Problem) -> bool:
 
 
 def _point_to_origin(problem: Problem, files: Sequence[PredictionFile]) -> Problem:
-    """Name the participant's file, or the options, instead of a file that is not written yet."""
+    """Name the participant's file, or the metadata, instead of a file that is not written yet."""
     if _is_of_file(problem):
         if len(files) == 1:
             return replace(problem, file=files[0].path)
         return replace(problem, file=", ".join(file.path for file in files), line=None)
     if problem.file.endswith(SUBMISSION_FILE):
-        return replace(problem, file="options", line=None)
+        return replace(problem, file="metadata", line=None)
     return problem
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from leaderboard.assessing import assess
 from leaderboard.errors import BrokenReferenceError
+from leaderboard.files import TEMPORARY_PREFIX
 from leaderboard.grading import Yardstick, result_bytes
 from leaderboard.instance import LEDGER_FILE, RESULT_FILE, Instance
 from leaderboard.models import Manifest
@@ -119,4 +120,5 @@ def _find_strays(instance: Instance) -> tuple[str, ...]:
     if not instance.submissions_dir.is_dir():
         return ()
     known = {folder.name for folder in instance.submission_dirs()} | {LEDGER_FILE}
-    return tuple(sorted(path.name for path in instance.submissions_dir.iterdir() if path.name not in known))
+    names = sorted(path.name for path in instance.submissions_dir.iterdir())
+    return tuple(name for name in names if name not in known and not name.startswith(TEMPORARY_PREFIX))

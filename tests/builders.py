@@ -150,4 +150,6 @@ def build_entry(
     answered = None if covered is None else covered
     submission = build_submission(reference, probabilities, answered=answered, covered=covered)
     credits = credits_of(submission.probabilities, reference.labels, submission.answered)
-    return Entry(slug, build_metadata(**({"name": slug} | changes)), grade(submission, reference), credits)
+    metadata = build_metadata(**({"name": slug} | changes))
+    given = np.where(submission.answered, submission.probabilities, np.nan)
+    return Entry(slug, metadata, grade(submission, reference), credits, given)

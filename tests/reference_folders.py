@@ -4,7 +4,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from leaderboard.files import canonical_json, csv_text, sha256_hex
-from leaderboard.instance import BENCHMARK_FILE, HUMAN_RESPONSES_FILE, HUMAN_TRIALS_FILE, Instance
+from leaderboard.instance import (
+    BENCHMARK_FILE,
+    ERRATA_FILE,
+    HUMAN_RESPONSES_FILE,
+    HUMAN_TRIALS_FILE,
+    Instance,
+)
 from leaderboard.reference.sealing import digest_of
 
 Rows = list[list[str]]
@@ -115,7 +121,7 @@ class ReferenceFolder:
 
 def seal_blindly(instance: Instance, kind: str = "synthetic") -> None:
     """Write a manifest for whatever is there, as somebody would who does not look."""
-    names = [BENCHMARK_FILE, *HEADERS]
+    names = [BENCHMARK_FILE, ERRATA_FILE, *HEADERS]
     files = {name: instance.reference_file(name) for name in names}
     checksums = {name: sha256_hex(file.read_bytes()) for name, file in files.items() if file.exists()}
     manifest = {"kind": kind, "files": checksums, "digest": digest_of(checksums)}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from builders import build_reference, build_submission
-from leaderboard.comparing import Comparison, ScopeComparison, compare
+from leaderboard.comparing import Comparison, Contender, ScopeComparison, compare, compare_contenders
 from leaderboard.errors import LeaderboardError
 from leaderboard.grading import Yardstick, tally_scores
 from leaderboard.grading.draws import Draws
@@ -73,6 +73,17 @@ def test_the_interval_of_human_r_is_of_the_difference_on_each_resample() -> None
     assert isinstance(found, Interval)
     assert (found.low, found.high) == pytest.approx(np.nanpercentile(a - b, [2.5, 97.5]), abs=1e-12)
     assert found.n_undefined == np.isnan(a - b).sum()
+
+
+def test_contenders_are_made_once_for_any_number_of_comparisons() -> None:
+    """Compared with others before or not, the numbers are those of comparing the two alone."""
+    yardstick, everything = Yardstick.of(REFERENCE), np.ones(REFERENCE.n_trials, bool)
+    a, b, c = (
+        Contender.of(s, everything, yardstick) for s in (A, B, replace(A, probabilities=A.probabilities / 2))
+    )
+    compare_contenders(a, c, reference=REFERENCE)
+    compare_contenders(c, b, reference=REFERENCE)
+    assert compare_contenders(a, b, reference=REFERENCE) == compare(A, B, REFERENCE)
 
 
 def test_exchanging_the_two_turns_every_sign_and_keeps_p() -> None:

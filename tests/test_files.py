@@ -1,12 +1,23 @@
 """Reading with limits, writing all or nothing."""
 
+import ctypes
+import errno
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from leaderboard.files import canonical_json, csv_text, read_regular, write_atomic, write_folder
+from leaderboard import files
+from leaderboard.files import (
+    canonical_json,
+    csv_text,
+    exchange_folders,
+    read_regular,
+    write_atomic,
+    write_folder,
+)
 
 
 def test_write_atomic_replaces_the_content_and_leaves_nothing_else(tmp_path: Path) -> None:
@@ -118,3 +129,117 @@ def test_json_refuses_numbers_that_json_does_not_know() -> None:
 def test_csv_quotes_what_needs_it() -> None:
     """Commas in ids survive a round trip."""
     assert csv_text(["id"], [["scale=0.3,0.5"], ["plain"]]) == 'id\n"scale=0.3,0.5"\nplain\n'
+
+
+def two_folders(root: Path) -> tuple[Path, Path]:
+    first, second = root / "first", root / "deep/second"
+    write_folder(first, {"a.txt": b"1"})
+    write_folder(second, {"b.txt": b"2"})
+    return first, second
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()
+    }
+
+
+APART = {"first/a.txt": b"1", "deep/second/b.txt": b"2"}
+EXCHANGED = {"first/b.txt": b"2", "deep/second/a.txt": b"1"}
+
+
+def refuse_exchange(code: int) -> Callable[[Path, Path], None]:
+    def refuse(first: Path, _second: Path) -> None:
+        raise OSError(code, os.strerror(code), str(first))
+
+    return refuse
+
+
+def test_folders_trade_places_in_one_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No rename is needed where the system exchanges names."""
+    first, second = two_folders(tmp_path)
+    monkeypatch.setattr(Path, "rename", refuse_exchange(errno.EPERM))
+    exchange_folders(first, second)
+    assert contents(tmp_path) == EXCHANGED
+
+
+@pytest.mark.parametrize("code", [errno.EINVAL, errno.ENOSYS, errno.ENOTSUP])
+def test_folders_trade_places_by_renaming(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int) -> None:
+    """Where the file system refuses the one step, three renames do the same."""
+    first, second = two_folders(tmp_path)
+    monkeypatch.setattr(files, "_exchange", refuse_exchange(code))
+    exchange_folders(first, second)
+    assert contents(tmp_path) == EXCHANGED
+
+
+def test_a_library_without_the_step_is_no_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Other C libraries lack the function altogether."""
+    first, second = two_folders(tmp_path)
+    monkeypatch.setattr(ctypes, "CDLL", lambda *_, **__: object())
+    exchange_folders(first, second)
+    assert contents(tmp_path) == EXCHANGED
+
+
+def test_macos_has_a_step_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """There the function takes two names and the flag for swapping."""
+    first, second = two_folders(tmp_path)
+    calls: list[tuple[object, ...]] = []
+
+    class Library:
+        @staticmethod
+        def renamex_np(*arguments: object) -> int:
+            calls.append(arguments)
+            return 0
+
+    monkeypatch.setattr(ctypes, "CDLL", lambda *_, **__: Library)
+    monkeypatch.setattr(sys, "platform", "darwin")
+    exchange_folders(first, second)
+    assert calls == [(os.fsencode(first), os.fsencode(second), 2)]
+
+
+@pytest.mark.parametrize("n_renames", [0, 1, 2])
+def test_folders_stay_where_they_were_if_a_rename_fails(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, n_renames: int
+) -> None:
+    """What was renamed before is renamed back."""
+    first, second = two_folders(tmp_path)
+    rename, calls = Path.rename, []
+
+    def fail_once(path: Path, target: Path) -> Path:
+        calls.append(path)
+        if len(calls) == n_renames + 1:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return rename(path, target)
+
+    monkeypatch.setattr(files, "_exchange", refuse_exchange(errno.EINVAL))
+    monkeypatch.setattr(Path, "rename", fail_once)
+    with pytest.raises(OSError, match="No space left"):
+        exchange_folders(first, second)
+    assert contents(tmp_path) == APART
+
+
+def test_other_failures_are_told(tmp_path: Path) -> None:
+    """Nothing is tried instead where a folder is missing."""
+    first, second = two_folders(tmp_path)
+    with pytest.raises(FileNotFoundError) as caught:
+        exchange_folders(first, second / "none")
+    assert caught.value.filename == str(first)
+    assert contents(tmp_path) == APART
+
+
+@pytest.mark.parametrize("is_refused", [False, True])
+def test_folders_go_back_if_the_disk_does_not_take_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_refused: bool
+) -> None:
+    """An exchange that may not outlive a power cut is undone and told."""
+    first, second = two_folders(tmp_path)
+    if is_refused:
+        monkeypatch.setattr(files, "_exchange", refuse_exchange(errno.EINVAL))
+
+    def fail(_descriptor: int) -> None:
+        raise OSError(errno.EIO, os.strerror(errno.EIO))
+
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(OSError, match="Input/output error"):
+        exchange_folders(first, second)
+    assert contents(tmp_path) == APART

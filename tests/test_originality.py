@@ -42,6 +42,15 @@ def test_a_team_and_baselines_are_not_compared_with(instance: Instance) -> None:
     assert _others(instance, "example-slots", reference) == ["example-particles"]
 
 
+def test_a_teams_name_is_not_enough(instance: Instance) -> None:
+    """Whoever writes another team's name under a copy is still compared with that team."""
+    file = instance.submission_dir("example-particles") / "submission.toml"
+    text = file.read_text()
+    assert "github = " in text
+    file.write_text(text.replace('github = "', 'github = "not-'))
+    assert _others(instance, "example-slots", load_reference(instance)) == ["example-particles"]
+
+
 def test_an_invalid_submission_is_skipped(instance: Instance) -> None:
     """What cannot be read does not stop the judgement of another."""
     _rename_team(instance, "example-particles")

@@ -5,12 +5,12 @@ from pathlib import Path
 from leaderboard.files import write_atomic
 from leaderboard.problems import CODES, Severity
 
-REFERENCE, IMPORT = "reference-", "import-"
+CHANGE, LEDGER, REFERENCE, IMPORT = "change-", "ledger-", "reference-", "import-"
 
 HEAD = """\
 # Problems: every code and its meaning
 
-Written by `python tools/write_problem_docs.py` from `leaderboard/problems.py`; change it there.
+Written by `python tools/write_problem_docs.py` from `leaderboard/problems/`; change it there.
 
 A message reads `file:line: code: what was found`, with a hint below it that says what to do. **Errors**
 refuse, **warnings** and **notes** inform. `leaderboard validate --json` gives all of them as data.
@@ -31,6 +31,24 @@ SECTIONS = (
         "The submission is graded all the same; its `result.json` keeps them under `checks`.",
     ),
     (
+        "Branches: errors",
+        CHANGE,
+        Severity.ERROR,
+        "`leaderboard check-changes` says that the branch must not be merged as it is.",
+    ),
+    (
+        "Branches: warnings",
+        CHANGE,
+        Severity.WARNING,
+        "`leaderboard check-changes` mentions them for whoever reviews.",
+    ),
+    (
+        "The ledger: errors",
+        LEDGER,
+        Severity.ERROR,
+        "`leaderboard ledger` names them; nothing is published with such a ledger.",
+    ),
+    (
         "References: errors",
         REFERENCE,
         Severity.ERROR,
@@ -47,6 +65,12 @@ SECTIONS = (
         REFERENCE,
         Severity.NOTE,
         "`leaderboard reference check` mentions them and passes.",
+    ),
+    (
+        "Importing official files: errors",
+        IMPORT,
+        Severity.ERROR,
+        "`leaderboard reference import` and `fetch` refuse the files; the reference stays as it is.",
     ),
     (
         "Importing official files: warnings",
@@ -78,7 +102,7 @@ def render_problem_docs() -> str:
 
 
 def _prefix_of(name: str) -> str:
-    return next((prefix for prefix in (REFERENCE, IMPORT) if name.startswith(prefix)), "")
+    return next((prefix for prefix in (CHANGE, LEDGER, REFERENCE, IMPORT) if name.startswith(prefix)), "")
 
 
 if __name__ == "__main__":

@@ -7,11 +7,11 @@ import click
 
 from leaderboard.assessing import Assessment, assess
 from leaderboard.cli.location import Location, current_terminal, today
-from leaderboard.files import canonical_json, write_atomic
+from leaderboard.files import canonical_json, remove_leftovers, write_atomic
 from leaderboard.grading import Yardstick, grade_people, result_bytes
 from leaderboard.instance import RESULT_FILE
 from leaderboard.models import Result
-from leaderboard.report.problems import render_problems
+from leaderboard.report.problems import escape_line, render_problems
 from leaderboard.submission import RawSubmission, read_any
 from leaderboard.verifying import list_differences
 
@@ -76,13 +76,14 @@ def _store(raw: RawSubmission, path: Path, result: Result, output: Path | None, 
     if target is None:
         return True
     if not is_check:
+        remove_leftovers(target.parent)
         write_atomic(target, content)
-        click.echo(f"wrote {target}", err=True)
+        click.echo(escape_line(f"wrote {target}"), err=True)
         return True
     committed = raw.find(RESULT_FILE)
     differences = list_differences(committed.content if committed else None, content)
     for difference in differences:
-        click.echo(f"{raw.path_of(RESULT_FILE)}: {difference}", err=True)
+        click.echo(escape_line(f"{raw.path_of(RESULT_FILE)}: {difference}"), err=True)
     if not differences:
-        click.echo(f"{raw.path_of(RESULT_FILE)}: equal to a fresh grade", err=True)
+        click.echo(escape_line(f"{raw.path_of(RESULT_FILE)}: equal to a fresh grade"), err=True)
     return not differences

@@ -44,10 +44,16 @@ class Location:
         return instance, load_reference(instance, with_responses=with_responses)
 
     def new_instance(self) -> "Instance":
-        """The instance that ``--root`` names, there or not; without it, the current folder."""
-        from leaderboard.instance import Instance
+        """The one that ``--root`` names, there or not; without it, the nearest or else the current folder."""
+        from leaderboard.errors import InstanceError
+        from leaderboard.instance import Instance, find_instance
 
-        return Instance(self.root or Path.cwd())
+        if self.root is not None:
+            return Instance(self.root)
+        try:
+            return find_instance(Path.cwd())
+        except InstanceError:
+            return Instance(Path.cwd())
 
 
 def today() -> dt.date:

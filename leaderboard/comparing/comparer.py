@@ -1,7 +1,8 @@
 """Comparing two submissions, scope by scope, with the same resamples for both."""
 
-from collections.abc import Iterator, Sequence
-from typing import Literal, TypeVar
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal, Self, TypeVar
 
 import numpy as np
 
@@ -10,8 +11,7 @@ from leaderboard.errors import LeaderboardError
 from leaderboard.grading import Scope, Yardstick, find_metric, list_scopes, tally_scores
 from leaderboard.grading.metrics import NO_HUMAN_DATA
 from leaderboard.grading.observations import Observations
-from leaderboard.grading.tally import Tally
-from leaderboard.metrics.accuracy import Floats, Integers, credits_of
+from leaderboard.metrics.accuracy import Booleans, Floats, Integers, credits_of
 from leaderboard.metrics.agreement import answers_of, mean_kappa
 from leaderboard.metrics.exact_tests import paired_p
 from leaderboard.metrics.resampling import Interval, percentile_interval
@@ -22,12 +22,48 @@ from leaderboard.reference import Reference
 from leaderboard.submission import Submission
 
 N_TRIALS_SHOWN = 10
+COMPARED = ("accuracy", "human_r")
 
 SAME_ANSWER_ALWAYS = Undefined("both give one and the same answer to every trial")
 
 T = TypeVar("T")
 
-Two = tuple[Submission, Submission]
+
+@dataclass(frozen=True)
+class Contender:
+    """A submission with what it is compared by, made once for any number of comparisons.
+
+    Attributes
+    ----------
+    submission
+        Whose.
+    covered : (n_trials,)
+        The trials that it is compared on; those of its rival are the same.
+    estimates, resampled
+        By scope and metric; resamples have the shape (n_resamples,).
+    """
+
+    submission: Submission
+    covered: Booleans
+    estimates: Mapping[tuple[str, str], Estimate]
+    resampled: Mapping[tuple[str, str], Floats]
+
+    @classmethod
+    def of(cls, submission: Submission, covered: Booleans, yardstick: Yardstick) -> Self:
+        """Score a submission on trials that it covers, and keep only what comparing needs."""
+        observations = Observations.of(submission, yardstick.reference)
+        tally = tally_scores(observations, covered, yardstick, subsets=("all",))
+        keys = [(scope, metric) for scope in tally.estimates for metric in COMPARED]
+        return cls(
+            submission,
+            covered,
+            estimates={key: tally.estimates[key[0]]["all"][key[1]] for key in keys},
+            resampled={
+                (scope, metric): tally.resampled[scope, "all", metric].copy()  # not the whole that it is of
+                for scope, metric in keys
+                if (scope, "all", metric) in tally.resampled
+            },
+        )
 
 
 def compare(
@@ -44,20 +80,24 @@ def compare(
         If they share no scope.
     """
     covered = a.covered & b.covered
-    scopes = list_scopes(reference, covered)
-    if not scopes:
+    if not list_scopes(reference, covered):
         names = f"{a.slug} and {b.slug}"
         raise LeaderboardError(f"{names} cover no scenario in common", "there is nothing to compare")
     yardstick = yardstick or Yardstick.of(reference)
-    tallies = [tally_scores(Observations.of(s, reference), covered, yardstick) for s in (a, b)]
-    grading = reference.benchmark.grading
+    return compare_contenders(*(Contender.of(s, covered, yardstick) for s in (a, b)), reference=reference)
+
+
+def compare_contenders(first: Contender, second: Contender, *, reference: Reference) -> Comparison:
+    """Compare two that cover the same trials, A and B, on every scope of these."""
+    a, b = first.submission, second.submission
+    scopes, grading = list_scopes(reference, first.covered), reference.benchmark.grading
     return Comparison(
         a=a.slug or "A",
         b=b.slug or "B",
         property_gain=_find_gain(a.metadata, b.metadata),
         resamples=grading.resamples,
         seed=grading.seed,
-        scopes=tuple(_compare_scope(scope, (a, b), reference, tallies) for scope in scopes),
+        scopes=tuple(_compare_scope(scope, (first, second), reference) for scope in scopes),
         trials=tuple(_find_trials(a, b, reference)),
     )
 
@@ -70,13 +110,13 @@ def _find_gain(a: Metadata | None, b: Metadata | None) -> Literal["A-B", "B-A"] 
     return "B-A" if is_counterpart(b, a) else None
 
 
-def _compare_scope(scope: Scope, two: Two, reference: Reference, tallies: Sequence[Tally]) -> ScopeComparison:
-    mask = scope.mask
+def _compare_scope(scope: Scope, contenders: Sequence[Contender], reference: Reference) -> ScopeComparison:
+    mask, two = scope.mask, [contender.submission for contender in contenders]
     credits = [credits_of(s.probabilities, reference.labels, s.answered) for s in two]
     answers = [answers_of(s.probabilities[mask]) for s in two]
     difference = _sum_by_pair(reference.pairs[mask], (credits[0] - credits[1])[mask])
-    accuracies = [tally.estimates[scope.name]["all"]["accuracy"] for tally in tallies]
-    accuracy = _subtract(tallies, scope.name, "accuracy")
+    accuracies = [contender.estimates[scope.name, "accuracy"] for contender in contenders]
+    accuracy = _subtract(contenders, scope.name, "accuracy")
     return ScopeComparison(
         name=scope.name,
         kind=scope.kind,
@@ -87,7 +127,7 @@ def _compare_scope(scope: Scope, two: Two, reference: Reference, tallies: Sequen
         difference=_always_defined(accuracy),
         p=paired_p(np.rint(2 * difference).astype(np.int64)),
         overlap=_count_overlap(credits[0][mask], credits[1][mask], difference),
-        human_r_difference=_subtract(tallies, scope.name, "human_r"),
+        human_r_difference=_subtract(contenders, scope.name, "human_r"),
         kappa=_kappa(answers[0], answers[1]),
     )
 
@@ -105,17 +145,17 @@ def _sum_by_pair(pairs: Integers, values: Floats) -> Floats:
     return sums[np.bincount(pairs) > 0]
 
 
-def _subtract(tallies: Sequence[Tally], scope: str, metric: str) -> Interval | Undefined:
+def _subtract(contenders: Sequence[Contender], scope: str, metric: str) -> Interval | Undefined:
     """Subtract B's estimate from A's, resample by resample."""
     values = []
-    for name, tally in zip("AB", tallies, strict=True):
-        estimate = tally.estimates[scope]["all"][metric]
+    for name, contender in zip("AB", contenders, strict=True):
+        estimate = contender.estimates[scope, metric]
         if isinstance(estimate, Undefined):
             if estimate == NO_HUMAN_DATA:
                 return estimate
             return Undefined(f"{name} has no {find_metric(metric).title.lower()}: {estimate.why}")
         values.append(estimate)
-    a, b = (tally.resampled[scope, "all", metric] for tally in tallies)
+    a, b = (contender.resampled[scope, metric] for contender in contenders)
     return percentile_interval(values[0] - values[1], a - b)
 
 

@@ -1,6 +1,16 @@
 """What is in files: the benchmark's definition, a submission's metadata, the manifest and results."""
 
-from leaderboard.models.benchmark import Benchmark, Grading, Manifest, Property, Scenario, Source, Track
+from leaderboard.models.benchmark import (
+    Benchmark,
+    Design,
+    Grading,
+    Manifest,
+    Property,
+    Scenario,
+    Source,
+    Track,
+)
+from leaderboard.models.errata import Errata
 from leaderboard.models.metadata import Metadata, Protocol
 from leaderboard.models.result import (
     Bin,
@@ -21,6 +31,8 @@ __all__ = [
     "Calibration",
     "Check",
     "Coverage",
+    "Design",
+    "Errata",
     "Grading",
     "Inputs",
     "Manifest",

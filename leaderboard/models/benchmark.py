@@ -102,27 +102,46 @@ class Track(StrictModel):
 
 
 class Source(StrictModel):
-    """An official file: an empty checksum is trusted on first use and then locked in the manifest."""
+    """An official file: an empty checksum is trusted on first use and then locked in the manifest.
+
+    ``member`` is the path of a file inside the archive at ``url``; the checksum is then of that file alone,
+    because large archives are not read whole. ``*`` stands for several files whose names are nobody's
+    business, such as people's; the checksum is then that of theirs, sorted, one on each line.
+    """
 
     what: str
     url: str
+    member: str = ""
     sha256: str = Field(default="", pattern=r"^([0-9a-f]{64})?$")
     etag: str = ""
     last_modified: str = ""
 
 
+class Design(StrictModel):
+    """How people were asked, as far as that is known; a difference is a finding of ``reference check``.
+
+    ``sets`` is how many different sets of trials the people of a property saw, no two with a trial in common.
+    """
+
+    per_property: int | None = Field(default=None, ge=1)
+    trials_per_person: int | None = Field(default=None, ge=1)
+    sets: int | None = Field(default=None, ge=1)
+
+
 class Benchmark(StrictModel):
-    """The whole of ``benchmark.toml``."""
+    """The whole of ``benchmark.toml``; ``licence`` is that of the official files."""
 
     name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_-]*$")]
     title: str
     version: str
     question: str
+    licence: str = ""
     grading: Grading
     properties: tuple[Property, ...] = Field(min_length=1, strict=False)
     scenarios: tuple[Scenario, ...] = Field(min_length=1, strict=False)
     tracks: tuple[Track, ...] = Field(min_length=1, strict=False)
     sources: tuple[Source, ...] = Field(default=(), strict=False)
+    people: Design = Field(default_factory=Design)
 
     @model_validator(mode="after")
     def _check_names(self) -> Self:

@@ -21,20 +21,39 @@ Family = Literal[
 MAX_NAME_LENGTH = 80
 MAX_TEXT_LENGTH = 1000
 
+MAX_STACKED_MARKS = 4  # above and below one letter; of more, lines overlap their neighbours
+
 _REFUSED_CATEGORIES = {"Cc", "Cf", "Cs", "Co", "Zl", "Zp"}
+# What shows nothing though its category is another: Unicode's Default_Ignorable_Code_Point, blank Braille.
+_INVISIBLE = (
+    *(0x034F, 0x115F, 0x1160, 0x17B4, 0x17B5, *range(0x180B, 0x1810), 0x2065, 0x2800, 0x3164),
+    *(*range(0xFE00, 0xFE10), 0xFFA0, *range(0xFFF0, 0xFFF9), *range(0xE0000, 0xE1000)),
+)
+_NONCHARACTERS = (
+    *range(0xFDD0, 0xFDF0),
+    *(plane << 16 | end for plane in range(17) for end in (0xFFFE, 0xFFFF)),
+)
+_REFUSED_CHARACTERS = frozenset(map(chr, (*_INVISIBLE, *_NONCHARACTERS)))
 
 
 def _check_characters(text: str) -> str:
+    n_marks = 0
     for position, character in enumerate(text, 1):
-        if unicodedata.category(character) in _REFUSED_CATEGORIES:
-            name = unicodedata.name(character, "control character")
+        category = unicodedata.category(character)
+        if category in _REFUSED_CATEGORIES or character in _REFUSED_CHARACTERS:
+            other = "control character" if category == "Cc" else "character that shows nothing"
+            name = unicodedata.name(character, other)
             raise ValueError(f"has U+{ord(character):04X} {name} at position {position}")
+        n_marks = n_marks + 1 if category in {"Mn", "Me"} else 0
+        if n_marks > MAX_STACKED_MARKS:
+            raise ValueError(f"stacks more than {MAX_STACKED_MARKS} marks at position {position}")
     if text != unicodedata.normalize("NFC", text):
         raise ValueError("is not in Unicode's composed form (NFC)")
     return text
 
 
-def _check_not_blank(text: str) -> str:
+def check_not_blank(text: str) -> str:
+    """Refuse a text that is empty or has blanks around it."""
     if not text or text != text.strip():
         raise ValueError("must not be empty, nor start or end with a blank")
     return text
@@ -56,7 +75,7 @@ def _check_link(link: str) -> str:
 
 Text = Annotated[str, Field(max_length=MAX_TEXT_LENGTH), AfterValidator(_check_characters)]
 ShortText = Annotated[str, Field(max_length=MAX_NAME_LENGTH), AfterValidator(_check_characters)]
-NameText = Annotated[ShortText, AfterValidator(_check_not_blank)]
+NameText = Annotated[ShortText, AfterValidator(check_not_blank)]
 Link = Annotated[str, Field(max_length=500), AfterValidator(_check_link)]
 
 
@@ -71,13 +90,17 @@ class About(StrictModel):
 
 
 class Protocol(StrictModel):
-    """How the system was trained and tested."""
+    """How the system was trained and tested.
+
+    ``answer_reader`` is the version of the reader of YES and NO that `leaderboard convert` read texts with.
+    """
 
     training: Training
     testing: Testing
     training_trials: int | None = Field(default=None, ge=0, le=1_000_000_000_000)
     auxiliary: Auxiliary | None = None
     selection: Selection | None = None
+    answer_reader: int | None = Field(default=None, ge=1, le=1_000_000)
 
 
 class System(StrictModel):
@@ -111,6 +134,11 @@ class Metadata(StrictModel):
     model: System
     links: Links = Field(default_factory=Links)
     contact: Contact
+
+    @property
+    def owner(self) -> tuple[str, str]:
+        """Whose it is: the team with its contact, since the team's name alone anybody could write."""
+        return self.submission.team, self.contact.github.lower()
 
     @property
     def is_baseline(self) -> bool:

@@ -1,12 +1,13 @@
 """A reference as a value: trials, labels and people as arrays in one fixed order."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from leaderboard.models import Benchmark, Manifest
+from leaderboard.models import Benchmark, Errata, Manifest
 
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
@@ -26,12 +27,15 @@ class Responses:
         Index into the reference's trials.
     answers : (n_responses,)
         1 for YES, 0 for NO.
+    rows : (n_responses,)
+        Row of each answer in its file, from 0; None where they come from no file.
     """
 
     participant_ids: tuple[str, ...]
     participants: Integers
     trials: Integers
     answers: Integers
+    rows: Integers | None = None
 
 
 @dataclass(frozen=True)
@@ -54,6 +58,29 @@ class People:
 
 
 @dataclass(frozen=True)
+class DroppedTrial:
+    """A trial of the lists that errata take out of the reference.
+
+    Attributes
+    ----------
+    property_index, scenario_index
+        Index into ``benchmark.properties`` and ``benchmark.scenarios``.
+    position
+        Among all trials of the lists, from 0.
+    participant_ids
+        Who judged it, as far as single responses are known.
+    """
+
+    trial_id: str
+    pair_id: str
+    property_index: int
+    scenario_index: int
+    position: int
+    participant_ids: tuple[str, ...]
+    reason: str
+
+
+@dataclass(frozen=True)
 class Reference:
     """The benchmark's definition, its trials in the order of their files, and human data if there are any.
 
@@ -71,6 +98,12 @@ class Reference:
         0 or 1; label 1 is YES.
     people
         None if the reference lacks human data.
+    start_frames : (n_trials,)
+        First frame of the prediction phase, -1 where it is not given; None if it was not read.
+    errata
+        What a maintainer accepts and drops; the trials above are those that are left.
+    dropped_trials
+        Those that are not, in the order of the lists.
     """
 
     benchmark: Benchmark
@@ -83,6 +116,9 @@ class Reference:
     copies: Integers
     labels: Integers
     people: People | None = None
+    start_frames: Integers | None = None
+    errata: Errata = field(default_factory=Errata)
+    dropped_trials: tuple[DroppedTrial, ...] = ()
 
     @property
     def n_trials(self) -> int:
@@ -98,6 +134,11 @@ class Reference:
     def trial_index(self) -> dict[str, int]:
         """Position of each trial id."""
         return {trial_id: index for index, trial_id in enumerate(self.trial_ids)}
+
+    @cached_property
+    def dropped(self) -> Mapping[str, str]:
+        """Why each dropped trial was dropped, by its id."""
+        return {trial.trial_id: trial.reason for trial in self.dropped_trials}
 
     def in_scenario(self, scenario_id: str) -> Booleans:
         """Mask of the trials of a scenario, shape (n_trials,)."""

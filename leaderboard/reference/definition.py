@@ -1,4 +1,4 @@
-"""Reading what defines and seals a reference: ``benchmark.toml`` and ``manifest.json``."""
+"""Reading what defines, mends and seals a reference: benchmark.toml, errata.toml and manifest.json."""
 
 import json
 import re
@@ -12,13 +12,14 @@ from pydantic import BaseModel, ValidationError
 from leaderboard.files import read_regular
 from leaderboard.instance import (
     BENCHMARK_FILE,
+    ERRATA_FILE,
     HUMAN_RESPONSES_FILE,
     HUMAN_TRIALS_FILE,
     MANIFEST_FILE,
     PUBLISHED_FILE,
     Instance,
 )
-from leaderboard.models import Benchmark, Manifest
+from leaderboard.models import Benchmark, Errata, Manifest
 from leaderboard.problems import Problems
 
 SIZE_LIMIT = 200_000_000
@@ -39,7 +40,7 @@ def shown(name: str) -> str:
 def sealed_names(benchmark: Benchmark) -> tuple[str, ...]:
     """Name every file that a reference of this definition may consist of, the manifest aside."""
     trial_lists = (property_.file for property_ in benchmark.properties)
-    return (BENCHMARK_FILE, *trial_lists, *_HUMAN_FILES, PUBLISHED_FILE)
+    return (BENCHMARK_FILE, *trial_lists, *_HUMAN_FILES, PUBLISHED_FILE, ERRATA_FILE)
 
 
 def read_reference_file(instance: Instance, name: str, problems: Problems) -> bytes | None:
@@ -69,19 +70,13 @@ def read_benchmark(instance: Instance, problems: Problems) -> tuple[bytes, Bench
 
 def parse_benchmark(content: bytes, problems: Problems) -> Benchmark | None:
     """Understand the bytes of ``benchmark.toml``; None and problems if they do not define a benchmark."""
-    try:
-        definition = tomllib.loads(content.decode())
-    except (ValueError, RecursionError) as error:
-        line = re.search(r"at line (\d+)", str(error))
-        problems.add(
-            "reference-definition",
-            f"is not TOML: {_shorten(str(error))}",
-            shown(BENCHMARK_FILE),
-            line=int(line[1]) if line else None,
-        )
-        return None
-    benchmark = _validate(Benchmark, definition, "reference-definition", BENCHMARK_FILE, problems)
+    benchmark = _parse_toml(content, Benchmark, "reference-definition", BENCHMARK_FILE, problems)
     return None if benchmark is None or _has_clashing_files(benchmark, problems) else benchmark
+
+
+def parse_errata(content: bytes, problems: Problems) -> Errata | None:
+    """Understand the bytes of ``errata.toml``; None and problems if they are no errata."""
+    return _parse_toml(content, Errata, "reference-errata", ERRATA_FILE, problems)
 
 
 def read_manifest(instance: Instance, problems: Problems) -> Manifest | None:
@@ -97,6 +92,21 @@ def read_manifest(instance: Instance, problems: Problems) -> Manifest | None:
         )
         return None
     return _validate(Manifest, seal, "reference-manifest", MANIFEST_FILE, problems)
+
+
+def _parse_toml(content: bytes, model: type[Model], code: str, name: str, problems: Problems) -> Model | None:
+    try:
+        values = tomllib.loads(content.decode())
+    except (ValueError, RecursionError) as error:
+        line = re.search(r"at line (\d+)", str(error))
+        problems.add(
+            code,
+            f"is not TOML: {_shorten(str(error))}",
+            shown(name),
+            line=int(line[1]) if line else None,
+        )
+        return None
+    return _validate(model, values, code, name, problems)
 
 
 def _validate(model: type[Model], value: object, code: str, name: str, problems: Problems) -> Model | None:

@@ -65,6 +65,8 @@ class Description:
         None where single responses are unknown.
     n_responses
         Number of responses behind all counts.
+    dropped
+        Why each trial that errata drop was dropped, by its id; it is in none of the counts.
     """
 
     title: str
@@ -79,6 +81,7 @@ class Description:
     n_people: int | None
     trials_per_person: tuple[int, int] | None
     n_responses: int
+    dropped: dict[str, str]
 
 
 def describe_reference(reference: Reference) -> Description:
@@ -100,6 +103,7 @@ def describe_reference(reference: Reference) -> Description:
         n_people=n_people,
         trials_per_person=trials_per_person,
         n_responses=0 if people is None else int(people.n.sum()),
+        dropped=dict(reference.dropped),
     )
 
 

@@ -72,7 +72,7 @@ def _parse_responses(table: Table, trial_index: Mapping[str, int], problems: Pro
     index = {name: position for position, name in enumerate(participant_ids)}
     participants = np.array([index[name] for name in names])
     order = np.lexsort((trials, participants))
-    responses = Responses(participant_ids, participants[order], trials[order], answers[order])
+    responses = Responses(participant_ids, participants[order], trials[order], answers[order], order)
     _report_repeated(table, responses, order, problems)
     return responses
 

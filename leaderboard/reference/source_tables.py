@@ -2,14 +2,17 @@
 
 import csv
 import io
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from leaderboard.errors import SourceError
-from leaderboard.files import read_regular, sha256_hex
+from leaderboard.files import read_regular
+from leaderboard.reference.source_files import SourceFile
 
 SIZE_LIMIT = 100_000_000
+SEPARATORS = ",;\t"
 
 
 @dataclass(frozen=True)
@@ -31,10 +34,11 @@ class SourceRow:
 
 @dataclass(frozen=True)
 class SourceTable:
-    """A CSV file as read: how messages name it, the checksum of its bytes, and its rows."""
+    """A CSV file as read: how messages name it, the checksum of its bytes, its columns and its rows."""
 
     file: str
     sha256: str
+    header: tuple[str, ...]
     rows: tuple[SourceRow, ...]
 
 
@@ -53,20 +57,41 @@ def read_source_table(path: Path, columns: Sequence[str], *, limit: int = SIZE_L
     Raises
     ------
     SourceError
-        If it cannot be read, is too large or not UTF-8, is no regular CSV, lacks a column or has no rows.
+        If it cannot be read, is too large, or for what `parse_source_table` refuses.
     """
-    file = str(path)
-    content = _read_bytes(path, limit)
-    lines = csv.reader(io.StringIO(_decode(content, file), newline=""), strict=True)
+    return parse_source_table(SourceFile(path.name, str(path), _read_bytes(path, limit)), columns)
+
+
+def parse_source_table(file: SourceFile, columns: Sequence[str] = ()) -> SourceTable:
+    """Understand a CSV file that has at least these columns.
+
+    Cells are separated by commas, or by what the header has instead of commas: semicolons or tabs. Blank
+    lines at the end are no rows.
+
+    Raises
+    ------
+    SourceError
+        If it is not UTF-8, is no regular CSV, lacks a column or has no rows.
+    """
+    text = _decode(file.content, file.origin)
+    lines = csv.reader(io.StringIO(text, newline=""), delimiter=_find_separator(text), strict=True)
     try:
         header = next(lines, [])
-        _check_header(header, columns, file)
-        rows = tuple(_make_row(header, cells, file, lines.line_num) for cells in lines)
+        _check_header(header, columns, file.origin)
+        numbered = [(lines.line_num, cells) for cells in lines]
     except csv.Error as error:
-        raise SourceError(f"{file}:{lines.line_num}: malformed CSV: {error}") from None
+        raise SourceError(f"{file.origin}:{lines.line_num}: malformed CSV: {error}") from None
+    while numbered and not numbered[-1][1]:
+        numbered.pop()
+    rows = tuple(_make_row(header, cells, file.origin, line) for line, cells in numbered)
     if not rows:
-        raise SourceError(f"{file}: holds a header but no rows")
-    return SourceTable(file, sha256_hex(content), rows)
+        raise SourceError(f"{file.origin}: holds a header but no rows")
+    return SourceTable(file.origin, file.sha256, tuple(header), rows)
+
+
+def _find_separator(text: str) -> str:
+    header = text.partition("\n")[0]
+    return next((separator for separator in SEPARATORS if separator in header), ",")
 
 
 def _read_bytes(path: Path, limit: int) -> bytes:
@@ -98,9 +123,11 @@ def _check_header(header: Sequence[str], columns: Sequence[str], file: str) -> N
         noun = "column" if len(missing) == 1 else "columns"
         found = ", ".join(header) or "nothing"
         raise SourceError(f"{file}:1: lacks the {noun} {', '.join(missing)}; found {found}")
-    repeated = sorted({column for column in header if header.count(column) > 1})
+    repeated = [column for column, count in Counter(header).items() if count > 1]
     if repeated:
-        raise SourceError(f"{file}:1: has the column {repeated[0]} twice")
+        # By number: where each person has a column, its name must not be told.
+        first, second = [place for place, column in enumerate(header, 1) if column == repeated[0]][:2]
+        raise SourceError(f"{file}:1: columns {first} and {second} have the same name")
 
 
 def _make_row(header: Sequence[str], cells: Sequence[str], file: str, line: int) -> SourceRow:

@@ -1,7 +1,7 @@
 """Reading the reference's tables: the definition, the trial lists and human data, with all their problems."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,12 +9,13 @@ import numpy as np
 from leaderboard.ids import find_nearest
 from leaderboard.instance import (
     BENCHMARK_FILE,
+    ERRATA_FILE,
     HUMAN_RESPONSES_FILE,
     HUMAN_TRIALS_FILE,
     PUBLISHED_FILE,
     Instance,
 )
-from leaderboard.models import Benchmark, Manifest, Property
+from leaderboard.models import Benchmark, Errata, Manifest, Property
 from leaderboard.problems import Problems
 from leaderboard.reference.cells import (
     FIRST_LINE,
@@ -26,11 +27,12 @@ from leaderboard.reference.cells import (
     quote,
 )
 from leaderboard.reference.data import Integers, People, Reference
-from leaderboard.reference.definition import read_benchmark, read_reference_file, shown
+from leaderboard.reference.definition import parse_errata, read_benchmark, read_reference_file, shown
+from leaderboard.reference.dropping import drop_trials
 from leaderboard.reference.people import RATING_HEADER, RESPONSE_HEADER, parse_people
 
 TRIAL_HEADER = ("trial_id", "pair_id", "scenario", "copy", "label", "start_frame")
-OPTIONAL_FILES = (HUMAN_TRIALS_FILE, HUMAN_RESPONSES_FILE, PUBLISHED_FILE)
+OPTIONAL_FILES = (HUMAN_TRIALS_FILE, HUMAN_RESPONSES_FILE, PUBLISHED_FILE, ERRATA_FILE)
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class TrialList:
     scenarios: Integers
     copies: Integers
     labels: Integers
+    start_frames: Integers
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,8 @@ class Tables:
         One for each property; None if any of them cannot be understood.
     people
         None if there are no human data or they cannot be understood.
+    errata
+        None if they cannot be understood; empty if there are none.
     is_whole
         Whether everything that is there was understood.
     """
@@ -64,16 +69,17 @@ class Tables:
     contents: Mapping[str, bytes]
     trial_lists: tuple[TrialList, ...] | None
     people: People | None
+    errata: Errata | None
     is_whole: bool
 
     def bind(self, manifest: Manifest) -> Reference:
-        """Put tables and seal together; only where everything was understood."""
-        if not self.is_whole or self.trial_lists is None:
+        """Put tables and seal together, and drop what errata say; only where everything was understood."""
+        if not self.is_whole or self.trial_lists is None or self.errata is None:
             raise ValueError("a reference with unreadable tables cannot be put together")
         lists = self.trial_lists
         pair_names = [pair_id for trials in lists for pair_id in trials.pair_ids]
         pair_index = {pair_id: index for index, pair_id in enumerate(dict.fromkeys(pair_names))}
-        return Reference(
+        listed = Reference(
             benchmark=self.benchmark,
             manifest=manifest,
             trial_ids=tuple(trial_id for trials in lists for trial_id in trials.trial_ids),
@@ -84,7 +90,10 @@ class Tables:
             copies=np.concatenate([trials.copies for trials in lists]),
             labels=np.concatenate([trials.labels for trials in lists]),
             people=self.people,
+            start_frames=np.concatenate([trials.start_frames for trials in lists]),
+            errata=self.errata,
         )
+        return drop_trials(listed, self.errata.reasons)
 
 
 def read_tables(instance: Instance, *, with_responses: bool = True) -> tuple[Tables | None, Problems]:
@@ -134,8 +143,29 @@ def parse_tables(
             tables.get(HUMAN_TRIALS_FILE), tables.get(HUMAN_RESPONSES_FILE), trial_index, problems
         )
     has_people = HUMAN_TRIALS_FILE in contents or HUMAN_RESPONSES_FILE in contents
-    is_whole = trial_lists is not None and (people is not None or not has_people)
-    return Tables(benchmark, contents, trial_lists, people, is_whole)
+    errata = _parse_errata(benchmark, contents, trial_lists, problems)
+    is_whole = trial_lists is not None and (people is not None or not has_people) and errata is not None
+    return Tables(benchmark, contents, trial_lists, people, errata, is_whole)
+
+
+def _parse_errata(
+    benchmark: Benchmark,
+    contents: Mapping[str, bytes],
+    trial_lists: Sequence[TrialList] | None,
+    problems: Problems,
+) -> Errata | None:
+    """Understand the errata if there are any; they may not leave a property without trials."""
+    errata = parse_errata(contents.get(ERRATA_FILE, b""), problems)
+    if errata is None or trial_lists is None:
+        return errata
+    emptied = [
+        property_.name
+        for property_, trials in zip(benchmark.properties, trial_lists, strict=True)
+        if errata.reasons.keys() >= set(trials.trial_ids)
+    ]
+    for name in emptied:
+        problems.add("reference-errata", f"drops every trial of {name}", shown(ERRATA_FILE))
+    return None if emptied else errata
 
 
 def _read_contents(instance: Instance, benchmark: Benchmark, problems: Problems) -> dict[str, bytes]:
@@ -175,7 +205,7 @@ def _parse_trial_list(
         return None
     if copies is None or labels is None or start_frames is None:
         return None
-    return TrialList(trial_ids, pair_ids, scenarios, copies, labels)
+    return TrialList(trial_ids, pair_ids, scenarios, copies, labels, start_frames)
 
 
 def _parse_scenarios(

@@ -30,7 +30,8 @@ BEST_MARK = "†"
 MAX_NARROW_TITLE = 8
 NARROW_NOTE = "A wider terminal shows easy and hard trials and pairs too."
 
-_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
+# With their wide forms, which spreadsheets in some languages take for the same.
+_FORMULA_STARTS = (*"=+-@", *"\uff1d\uff0b\uff0d\uff20", "\t", "\r")
 
 
 @dataclass(frozen=True)

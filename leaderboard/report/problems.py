@@ -9,6 +9,7 @@ from leaderboard.problems import Problem
 from leaderboard.submission import Submission
 
 MAX_SHOWN = 20
+MAX_PATH = 300  # in a git tree, a path may have any length
 
 Format = Literal["text", "json", "github"]
 
@@ -36,11 +37,11 @@ def render_verdict(location: str, submission: Submission | None, problems: Seque
     warned = f", {_count(n_warnings, 'warning')}" if n_warnings else ""
     if submission is None:
         n_errors = len(problems) - n_warnings
-        return f"{escape_line(location)}: refused, {_count(n_errors, 'problem')}{warned}"
+        return f"{escape_line(_shorten_path(location))}: refused, {_count(n_errors, 'problem')}{warned}"
     n, n_covered = submission.covered.size, int(submission.covered.sum())
     unanswered = n_covered - int(submission.answered.sum())
     missing = f", {unanswered} of them unanswered" if unanswered else ""
-    return f"{escape_line(location)}: valid, {n_covered} of {n} trials{missing}{warned}"
+    return f"{escape_line(_shorten_path(location))}: valid, {n_covered} of {n} trials{missing}{warned}"
 
 
 def escape_line(text: str) -> str:
@@ -52,7 +53,16 @@ def escape_line(text: str) -> str:
     >>> print(escape_line("::add-mask::a\nb"))
     \x3a:add-mask::a\nb
     """
-    plain = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text).replace("##[", r"#\x23[")
+    return defuse_commands("".join(c if c.isprintable() else ascii(c)[1:-1] for c in text))
+
+
+def defuse_commands(line: str) -> str:
+    r"""Keep one line from being a command to GitHub; colours stay.
+
+    >>> print(defuse_commands("a ##[error]b"))
+    a #\x23[error]b
+    """
+    plain = line.replace("##[", r"#\x23[")
     return rf"\x3a{plain.lstrip()[1:]}" if plain.lstrip().startswith("::") else plain
 
 
@@ -71,7 +81,8 @@ def _text_lines(problems: Sequence[Problem]) -> Iterable[str]:
     for problem in problems:
         shown[problem.code] += 1
         if shown[problem.code] <= MAX_SHOWN:
-            place = problem.file if problem.line is None else f"{problem.file}:{problem.line}"
+            file = _shorten_path(problem.file)
+            place = file if problem.line is None else f"{file}:{problem.line}"
             severity = "" if problem.is_error else f"{problem.severity.value}: "
             yield escape_line(f"{place}: {severity}{problem.code}: {problem.message}")
             if problem.hint:
@@ -84,7 +95,7 @@ def _github_lines(problems: Sequence[Problem]) -> Iterable[str]:
     for problem in problems:
         shown[problem.code] += 1
         if shown[problem.code] <= MAX_SHOWN:
-            properties = {"file": problem.file, "line": problem.line, "title": problem.code}
+            properties = {"file": _shorten_path(problem.file), "line": problem.line, "title": problem.code}
             given = ",".join(
                 f"{k}={_escape_property(str(v))}" for k, v in properties.items() if v is not None
             )
@@ -111,6 +122,12 @@ def _escape_data(text: str) -> str:
 
 def _escape_property(text: str) -> str:
     return _escape_data(text).replace(":", "%3A").replace(",", "%2C")
+
+
+def _shorten_path(path: str) -> str:
+    """Leave out the middle of an endless path."""
+    half = MAX_PATH // 2
+    return path if len(path) <= MAX_PATH else f"{path[:half]}...{path[-half:]}"
 
 
 def _encodable(text: str) -> str:

@@ -37,7 +37,8 @@ def render_description(
     notes = (
         "easy, hard: pairs with a member above or below the benchmark's bounds; both: pairs that are both."
     )
-    return render_tables([heading, "", table, Text(notes, "dim")], terminal or Terminal())
+    dropped = [Text(f"dropped: {trial_id}: {why}") for trial_id, why in description.dropped.items()]
+    return render_tables([heading, "", table, Text(notes, "dim"), *dropped], terminal or Terminal())
 
 
 def render_description_json(description: Description) -> str:

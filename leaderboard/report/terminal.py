@@ -12,6 +12,7 @@ from rich.text import Text
 
 from leaderboard.models import Score
 from leaderboard.reference import Reference
+from leaderboard.report.problems import defuse_commands, escape_line
 
 MIN_NAME_WIDTH = 22
 ABSENT = "\N{EN DASH}"
@@ -27,6 +28,8 @@ class Terminal:
 
 def render_tables(parts: Iterable[RenderableType], terminal: Terminal) -> str:
     """Render rich tables and texts, one after the other, without trailing blanks.
+
+    No line is a command to GitHub, whatever a submission is called.
 
     What cannot be made narrow enough is wider than the terminal: a number is never cut.
     """
@@ -45,7 +48,8 @@ def render_tables(parts: Iterable[RenderableType], terminal: Terminal) -> str:
             needed = _protect_numbers(part, console) if isinstance(part, Table) else 0
             console.width = max(terminal.width, needed)
             console.print(part)
-    return "\n".join(line.rstrip() for line in capture.get().splitlines()) + "\n"
+    show = defuse_commands if terminal.has_colour else escape_line
+    return "\n".join(show(line.rstrip()) for line in capture.get().splitlines()) + "\n"
 
 
 def _protect_numbers(table: Table, console: Console) -> int:

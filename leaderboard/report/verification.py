@@ -3,6 +3,7 @@
 from dataclasses import asdict
 
 from leaderboard.files import canonical_json
+from leaderboard.report.problems import escape_line
 from leaderboard.verifying import Verification
 
 
@@ -27,7 +28,7 @@ def render_verification(verification: Verification) -> str:
         lines.append(
             "what is committed differs from what grading gives; see `leaderboard grade` and `reference check`"
         )
-    return "\n".join(lines) + "\n"
+    return "".join(f"{escape_line(line)}\n" for line in lines)
 
 
 def render_verification_json(verification: Verification) -> str:

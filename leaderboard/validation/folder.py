@@ -61,7 +61,8 @@ def _report_size(raw: RawSubmission, file: RawFile, problems: Problems) -> None:
         PREDICTIONS_FILE: "a row per trial is all that is needed: is this raw output?",
         RESULT_FILE: f"remove it, and make it with: leaderboard grade {_shown(raw.location)}",
     }.get(file.name, "shorten it")
-    message = f"is {file.size:,} bytes; the limit is {limit:,}"
+    size = f"{file.size:,} bytes" if file.size > limit else "too large to have been fetched"
+    message = f"is {size}; the limit is {limit:,}"
     problems.add("file-too-large", message, raw.path_of(file.name), hint=hint)
 
 

@@ -181,6 +181,8 @@ def _describe_refusal(name: str, path: tuple[str, ...], reason: str, found: obje
         return "forbidden-character", f"{name} {reason}", "write it on one line, without tabs"
     if reason.startswith("has U+"):
         return "forbidden-character", f"{name} {reason}", "remove it: it is invisible or turns text around"
+    if reason.startswith("stacks"):
+        return "forbidden-character", f"{name} {reason}", "write letters with at most a few marks"
     is_blank = reason.startswith("must not be empty")
     hint = "write the text without blanks around it" if is_blank else _NFC_HINT
     return "malformed-value", f"{name} is {_show(found)}; it {reason}", hint

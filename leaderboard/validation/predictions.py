@@ -41,7 +41,8 @@ def judge_predictions(
     """Judge a predictions file; None, and problems in the order of lines, if it is not valid.
 
     Every row's id and probability is judged, whatever is wrong with others; which trials are missing is
-    said only of a file whose rows can all be read.
+    said only of a file whose rows can all be read. Rows of trials that the reference dropped are as good as
+    any, and do not count: submissions that were made before stay valid.
     """
     text = decode_text(content, file, problems)
     if text is None:
@@ -69,7 +70,7 @@ def _empty_predictions(sha256: str, reference: Reference) -> Predictions:
 
 
 def _judge_ids(rows: Sequence[Row], reference: Reference, file: str, problems: Problems) -> dict[str, int]:
-    """Map each known id to its position; report unknown and repeated ones."""
+    """Map each known id to its position; report unknown and repeated ones, and leave out dropped ones."""
     first: dict[str, Row] = {}
     known: dict[str, int] = {}
     unknown: list[Row] = []
@@ -79,9 +80,11 @@ def _judge_ids(rows: Sequence[Row], reference: Reference, file: str, problems: P
             _report_duplicate(row, earlier, file, problems)
         elif row.trial_id in reference.trial_index:
             known[row.trial_id] = reference.trial_index[row.trial_id]
-        else:
+        elif row.trial_id not in reference.dropped:
             unknown.append(row)
-    if len(unknown) > 1 and not known:
+    if rows and not known and not unknown:
+        _report_all_dropped(rows[0], reference, file, problems)
+    elif len(unknown) > 1 and not known:
         _report_other_benchmark(unknown, reference, file, problems)
     elif unknown:
         _report_unknown(unknown, reference, file, problems)
@@ -92,6 +95,12 @@ def _report_duplicate(row: Row, earlier: Row, file: str, problems: Problems) -> 
     values = f"{quote_briefly(earlier.probability)} there, {quote_briefly(row.probability)} here"
     message = f"trial {quote_briefly(row.trial_id)} is on line {earlier.line} already ({values})"
     problems.add("duplicate-trial", message, file, line=row.line, hint="keep one of the two rows")
+
+
+def _report_all_dropped(first: Row, reference: Reference, file: str, problems: Problems) -> None:
+    message = f"every trial of the file was dropped from {reference.benchmark.title}"
+    hint = f"the reason for {first.trial_id}: {reference.dropped[first.trial_id]}"
+    problems.add("other-benchmark", message, file, line=first.line, hint=hint)
 
 
 def _report_other_benchmark(

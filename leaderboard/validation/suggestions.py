@@ -71,7 +71,8 @@ class Suggestions:
         if isinstance(found, Resolved):
             return f"write its id, {found.trial_id}"
         if isinstance(found, Ambiguous):
-            return f"it could be {' or '.join(found.trial_ids[:2])}; write one of these"
+            choice = f"it could be {_name_several(text, found.trial_ids)}; write one of these"
+            return choice if text.isascii() else f"{_name_odd(text)}: {choice}"
         return ""
 
     def _name_nearest(self, text: str) -> str:
@@ -79,7 +80,7 @@ class Suggestions:
         question = f"did you mean {near}?" if near else ""
         if text.isascii():
             return question
-        return f"{_name_odd(text)}; ids are plain ASCII{': ' if near else ''}{question}"
+        return f"{_name_odd(text)}{': ' if near else ''}{question}"
 
     def _neighbours(self, text: str) -> list[str]:
         """List the ids that share the longest beginnings and the longest ends with a text."""
@@ -107,8 +108,19 @@ def _strip_zeros(text: str) -> str:
     return re.sub("(?<![0-9])0+(?=[0-9])", "", text)
 
 
+def _name_several(text: str, trial_ids: Sequence[str]) -> str:
+    """Name the two trials that a text resembles most, and count the others."""
+    others, shown = list(trial_ids), []
+    for _ in range(2):
+        shown.append(find_nearest(text, others) or others[0])
+        others.remove(shown[-1])
+    if not others:
+        return " or ".join(sorted(shown))
+    return f"{', '.join(sorted(shown))} or {f'one of {len(others)} others' if others[1:] else others[0]}"
+
+
 def _name_odd(text: str) -> str:
-    """Name the first character of a text that is not ASCII, and where it stands."""
+    """Name the first character of a text that no id holds, since it is not ASCII, and where it stands."""
     position, odd = next((n, c) for n, c in enumerate(text, 1) if not c.isascii())
     name = unicodedata.name(odd, "without a name")
-    return f"character {position} is U+{ord(odd):04X} {name}"
+    return f"character {position} is U+{ord(odd):04X} {name}; ids are plain ASCII"

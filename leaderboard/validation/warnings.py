@@ -57,7 +57,7 @@ def _equals_people(submission: Submission, reference: Reference) -> bool:
 
 def _find_copies(submission: Submission, others: Sequence[Submission], file: str, problems: Problems) -> None:
     for other in others:
-        if other.slug == submission.slug or _team(other) == _team(submission):
+        if other.slug == submission.slug or _owner(other) == _owner(submission):
             continue
         shared = submission.answered & other.answered
         mine, theirs = submission.probabilities[shared], other.probabilities[shared]
@@ -83,8 +83,8 @@ def _ranks(values: Floats) -> Floats:
     return ranks
 
 
-def _team(submission: Submission) -> str | None:
-    return submission.metadata.submission.team if submission.metadata else None
+def _owner(submission: Submission) -> tuple[str, str] | None:
+    return None if submission.metadata is None else submission.metadata.owner
 
 
 def _find_swapped(submission: Submission, reference: Reference, file: str, problems: Problems) -> None:

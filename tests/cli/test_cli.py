@@ -23,7 +23,7 @@ def test_help_names_every_command_with_the_help_of_its_module() -> None:
     """The list that help prints without importing anything is true."""
     output = CliRunner().invoke(group, ["--help"]).output
     for name, text in COMMANDS.items():
-        command = importlib.import_module(f"leaderboard.cli.{name}").command
+        command = importlib.import_module(f"leaderboard.cli.{name.replace('-', '_')}").command
         assert name in output
         assert command.name == name
         assert command.help.startswith(text.rstrip("."))

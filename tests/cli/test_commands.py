@@ -234,7 +234,7 @@ class TestSubmit:
         before = _snapshot(root)
         flags = _flags(name="bad\u202ename", date="2199-01-01")
         output = run("submit", example / "predictions.csv", "--slug", "mine", *flags, exit_code=1).output
-        assert "options: forbidden-character: submission.name has U+202E" in output
+        assert "metadata: forbidden-character: submission.name has U+202E" in output
         assert _snapshot(root) == before
 
     def test_a_taken_slug_is_refused(self, run: Run, example: Path, root: Path) -> None:
@@ -442,8 +442,32 @@ class TestReference:
         assert _snapshot(root / "reference") == before
 
     def test_check_prints_json(self, run: Run) -> None:
-        """The findings for programs, in the shape of validate's."""
-        assert json.loads(run("reference", "check", "--json").output)["valid"] is True
+        """The findings for programs, in the shape of validate's, and the datasheet beside them."""
+        data = json.loads(run("reference", "check", "--json").output)
+        assert (data["valid"], data["sound"], data["accepted"], data["dropped"]) == (True, True, [], {})
+        assert data["datasheet"][1]["rows"][0] == {
+            "assumption": "Trials of Mass",
+            "expected": "192",
+            "found": "192",
+            "status": "ok",
+            "code": "",
+        }
+
+    def test_errata_decide_what_check_accepts(self, run: Run, root: Path) -> None:
+        """A departure fails the check until errata accept it, and an entry without effect fails it again."""
+        list_file, errata = root / "reference/Mass.csv", root / "reference/errata.toml"
+        sound = list_file.read_text()
+        list_file.write_text(sound.replace(",mass_dominoes_pp,1,", ",mass_dominoes_pp,0,", 1))
+        run("reference", "seal", "--kind", "synthetic")
+        assert "warning: reference-copies" in run("reference", "check", exit_code=1).output
+        errata.write_text('[[accept]]\ncode = "reference-copies"\nreason = "Released like that."\n')
+        run("reference", "seal", "--kind", "synthetic")
+        output = run("reference", "check").output
+        assert "accepted: reference/Mass.csv:3: reference-copies: " in output
+        assert output.endswith("the reference is sound\n")
+        list_file.write_text(sound)
+        run("reference", "seal", "--kind", "synthetic")
+        assert "reference-errata-unused" in run("reference", "check", exit_code=1).output
 
 
 class TestConvert:

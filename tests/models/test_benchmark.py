@@ -28,6 +28,11 @@ def test_thresholds_are_exact_fractions() -> None:
         ({"scenarios": [{"id": "a", "title": "A", "property": "Gamma"}]}, "unknown property 'Gamma'"),
         ({"scenarios": [{"id": "a", "title": "A", "property": "Alpha"}]}, "property Beta has no scenario"),
         ({"surprise": 1}, "Extra inputs are not permitted"),
+        (
+            {"people": {"per_property": 0}},
+            "people.per_property\n  Input should be greater than or equal to 1",
+        ),
+        ({"people": {"groups": 8}}, "people.groups\n  Extra inputs are not permitted"),
         ({"tracks": [{"id": "all", "title": "All"}]}, "exactly one track must have default = true"),
         (
             {
@@ -67,3 +72,11 @@ def test_a_protocol_finds_its_track() -> None:
     assert track is not None
     assert track.id == "without"
     assert benchmark.find_track(Protocol(training="separate", testing="fully_observed")) is None
+
+
+def test_the_design_of_the_study_may_be_stated_in_part() -> None:
+    """Numbers that are not given are not known, and neither is the licence."""
+    benchmark = Benchmark.model_validate(_definition(people={"sets": 6}))
+    assert (benchmark.people.per_property, benchmark.people.sets) == (None, 6)
+    assert build_benchmark().people.sets is None
+    assert build_benchmark().licence == ""

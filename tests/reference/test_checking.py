@@ -11,8 +11,10 @@ from hypothesis import strategies as st
 from leaderboard.errors import BrokenReferenceError
 from leaderboard.files import canonical_json
 from leaderboard.instance import Instance
+from leaderboard.problems import Severity
 from leaderboard.reference import load_reference
 from leaderboard.reference.checking import check_reference
+from leaderboard.reference.published import PUBLISHED_HEADER
 from reference_folders import ReferenceFolder, pair_name, seal_blindly, trial_name
 
 Change = Callable[[ReferenceFolder], object]
@@ -20,11 +22,20 @@ Finding = tuple[str, str, int | None, str]
 
 TRIALS, RATINGS, RESPONSES = "Alpha.csv", "human_trials.csv", "human_responses.csv"
 PAIR, NEXT_PAIR, FAR_PAIR = pair_name("alpha_one", 0), pair_name("alpha_one", 1), pair_name("alpha_two", 0)
+ERRATA = f"""\
+[[accept]]
+code = "reference-copies"
+reason = "Known."
+[[drop]]
+trial_id = "{trial_name("alpha_two", 0, 0)}"
+reason = "Empty."
+""".encode()
 FILES = ["benchmark.toml", TRIALS, "Beta.csv", RATINGS, RESPONSES, "manifest.json"]
 
 
 def findings_of(instance: Instance) -> list[Finding]:
-    return [(p.code, p.file.removeprefix("reference/"), p.line, p.message) for p in check_reference(instance)]
+    found = check_reference(instance).problems
+    return [(p.code, p.file.removeprefix("reference/"), p.line, p.message) for p in found]
 
 
 def without_people(folder: ReferenceFolder) -> None:
@@ -296,12 +307,30 @@ def test_properties_with_several_scenarios_are_balanced_as_a_whole(tmp_path: Pat
 
 def test_a_sound_reference_has_no_findings(tmp_path: Path) -> None:
     """What is as expected is not mentioned."""
-    assert check_reference(ReferenceFolder().write(tmp_path)) == ()
+    assert check_reference(ReferenceFolder().write(tmp_path)).problems == ()
 
 
 def test_the_embedded_reference_is_sound(repo_root: Path) -> None:
-    """The committed reference has no findings, not even notes."""
-    assert check_reference(Instance(repo_root)) == ()
+    """The committed reference departs in nothing but the number of sets, which the paper gives as 8."""
+    problems = check_reference(Instance(repo_root)).problems
+    assert {problem.severity for problem in problems} == {Severity.NOTE}
+    assert [problem.message for problem in problems] == [
+        f"the people of {name} saw 6 different sets of trials, not the 8 expected"
+        for name in ("Mass", "Friction", "Elasticity", "Deformability")
+    ]
+
+
+def test_published_numbers_that_cannot_be_read_are_told(tmp_path: Path) -> None:
+    """The check looks into the file; grading, which needs nothing of it, goes on."""
+    instance = ReferenceFolder(raw={"published.csv": b"source\nA Paper\n"}).write(tmp_path)
+    found = [p for p in check_reference(instance).problems if p.code == "reference-published"]
+    assert [(p.file, p.line, p.message.partition(";")[0]) for p in found] == [
+        (
+            "reference/published.csv",
+            1,
+            f"lacks the columns {', '.join(PUBLISHED_HEADER[1:])}",
+        )
+    ]
 
 
 def test_stray_files_are_found_and_hidden_ones_left_alone(tmp_path: Path) -> None:
@@ -362,8 +391,9 @@ def test_errors_are_what_loading_refuses(tmp_path: Path) -> None:
 def test_mangled_files_give_findings(data: st.DataObject) -> None:
     """Whatever is cut out of, put into or taken from the files, there are findings and no traceback."""
     with TemporaryDirectory() as name:
-        instance = ReferenceFolder().write(Path(name))
-        for file in data.draw(st.lists(st.sampled_from(FILES), min_size=1, max_size=3, unique=True)):
+        instance = ReferenceFolder(raw={"errata.toml": ERRATA}).write(Path(name))
+        files = [*FILES, "errata.toml"]
+        for file in data.draw(st.lists(st.sampled_from(files), min_size=1, max_size=3, unique=True)):
             path = instance.reference_file(file)
             content = path.read_bytes()
             mangled = _mangle(content, data)
@@ -373,7 +403,7 @@ def test_mangled_files_give_findings(data: st.DataObject) -> None:
                 path.write_bytes(mangled)
         if data.draw(st.booleans()):
             seal_blindly(instance)
-        found = check_reference(instance)
+        found = check_reference(instance).problems
         is_loadable = not any(problem.is_error for problem in found)
         if is_loadable:
             load_reference(instance)

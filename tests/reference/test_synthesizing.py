@@ -228,7 +228,7 @@ def test_a_tiny_reference_is_written_and_sealed(tmp_path: Path) -> None:
     instance = ReferenceFolder().write(tmp_path)
     manifest = synthesize_reference(instance, 5)
     assert load_reference(instance).manifest == manifest
-    assert check_reference(instance) == ()
+    assert check_reference(instance).problems == ()
 
 
 def test_scenarios_without_a_count_share_their_property_s(tmp_path: Path) -> None:

@@ -3,12 +3,12 @@
 import datetime as dt
 
 import pytest
-from raw_submissions import SUBMISSION_TOML, TODAY
 
 from builders import build_benchmark
 from leaderboard.models import Metadata
 from leaderboard.problems import Problems
 from leaderboard.validation.metadata import judge_metadata
+from raw_submissions import SUBMISSION_TOML, TODAY
 
 
 def judge(toml: str, today: dt.date = TODAY) -> tuple[Metadata | None, list[tuple[str, int | None, str]]]:

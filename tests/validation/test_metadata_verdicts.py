@@ -6,12 +6,12 @@ from collections.abc import Mapping
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from raw_submissions import SUBMISSION_TOML, TODAY
 
 from builders import build_benchmark
 from leaderboard.models import Metadata
 from leaderboard.problems import CODES, Problem, Problems
 from leaderboard.validation.metadata import judge_metadata
+from raw_submissions import SUBMISSION_TOML, TODAY
 
 LINKS = "\n[links]\n"
 

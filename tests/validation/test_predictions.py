@@ -9,11 +9,11 @@ from decimal import Decimal
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from raw_submissions import judge_predictions_file, predictions_csv, spread_probabilities
 
 from builders import build_reference
 from leaderboard.reference import Reference
 from leaderboard.validation.suggestions import Suggestions
+from raw_submissions import judge_predictions_file, predictions_csv, spread_probabilities
 
 REFERENCE = build_reference()
 LINES = predictions_csv(REFERENCE).splitlines()

@@ -27,8 +27,26 @@ SUGGESTIONS = Suggestions(IDS)
                 "did you mean beta_one-copy1/set=a,b/0012?"
             ),
         ),
+        (
+            "beta_one-\u0441opy1/set=a,b/0012",
+            (
+                "character 10 is U+0441 CYRILLIC SMALL LETTER ES; ids are plain ASCII: it could be "
+                "beta_one-copy0/set=a,b/0012, beta_one-copy1/set=a,b/0012 or one of 4 others; "
+                "write one of these"
+            ),
+        ),
         ("\ue000", "character 1 is U+E000 without a name; ids are plain ASCII"),
         ("beta_one-copy1/set=a,b/0012_img.mp4", "write its id, beta_one-copy1/set=a,b/0012"),
+        ("beta_one-copy1_mp4/set=a,b/0012_cue.webm", "write its id, beta_one-copy1/set=a,b/0012"),
+        ("D:\\my data\\beta_one-copy1\\set=a,b\\0012.npy", "write its id, beta_one-copy1/set=a,b/0012"),
+        (
+            "https://example.com/beta_one-copy1/set%3Da%2Cb/0012_img.mp4",
+            "write its id, beta_one-copy1/set=a,b/0012",
+        ),
+        (
+            "beta_one/set=a,b/0012_img.mp4",
+            "it could be beta_one-copy0/set=a,b/0012 or beta_one-copy1/set=a,b/0012; write one of these",
+        ),
         ("bta_one-copy1/set=a,b/0012", "did you mean beta_one-copy1/set=a,b/0012?"),
         ("beta_one-copy1/set=a.b/0012", "did you mean beta_one-copy1/set=a,b/0012?"),
         ("0012", ""),
@@ -48,11 +66,24 @@ def test_a_name_that_fits_two_trials_is_not_guessed() -> None:
     )
 
 
+def test_of_many_trials_the_most_similar_are_named() -> None:
+    """The others are counted, so that the hint stays short."""
+    assert SUGGESTIONS.explain("set=a,b/0012_img.mp4") == (
+        "it could be alpha_one-copy0/set=a,b/0012, alpha_one-copy1/set=a,b/0012 or one of 4 others; "
+        "write one of these"
+    )
+    three = Suggestions(("ramp_0001", "ramp-redyellow_0001", "ramp_0001_map"))
+    assert three.explain("ramp_0001_img") == (
+        "it could be ramp_0001, ramp_0001_map or ramp-redyellow_0001; write one of these"
+    )
+
+
 @pytest.mark.parametrize("position", range(len(IDS[40])))
 def test_one_wrong_character_never_hides_the_trial(position: int) -> None:
     """Wherever a letter is missing, the nearest id is still found or one equally near."""
     wrong = IDS[40][:position] + IDS[40][position + 1 :]
-    assert SUGGESTIONS.explain(wrong).startswith(("did you mean ", "write alpha_one-copy0/set=a,b/00"))
+    known = ("did you mean ", "write alpha_one-copy0/set=a,b/00", "it could be alpha_one-copy0/set=a,b/0020")
+    assert SUGGESTIONS.explain(wrong).startswith(known)
 
 
 def test_lost_leading_zeros_are_recognised() -> None:

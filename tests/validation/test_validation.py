@@ -9,6 +9,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
+from builders import build_reference
+from leaderboard.files import sha256_hex
+from leaderboard.problems import CODES
+from leaderboard.report.problems import render_problems
+from leaderboard.submission import RawFile, RawSubmission
+from leaderboard.validation import Validation, validate
 from raw_submissions import (
     SUBMISSION_TOML,
     TODAY,
@@ -17,13 +24,6 @@ from raw_submissions import (
     raw_folder,
     spread_probabilities,
 )
-
-from builders import build_reference
-from leaderboard.files import sha256_hex
-from leaderboard.problems import CODES
-from leaderboard.report.problems import render_problems
-from leaderboard.submission import RawFile, RawSubmission
-from leaderboard.validation import Validation, validate
 
 REFERENCE = build_reference()
 VALID = predictions_csv(REFERENCE)

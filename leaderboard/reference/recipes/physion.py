@@ -4,27 +4,25 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 
 from leaderboard.errors import SourceError
 from leaderboard.files import csv_text
 from leaderboard.ids import is_id
-from leaderboard.instance import BENCHMARK_FILE, HUMAN_TRIALS_FILE, Instance
-from leaderboard.models import Source
+from leaderboard.instance import BENCHMARK_FILE, HUMAN_TRIALS_FILE
+from leaderboard.models import Benchmark, Source
 from leaderboard.problems import Problems
 from leaderboard.reference.cells import ID_RULE, quote
+from leaderboard.reference.fetching import Remote, RemoteFile
 from leaderboard.reference.people import RATING_HEADER
-from leaderboard.reference.recipes.creating import create_instance, require_new
 from leaderboard.reference.recipes.physion_definition import (
-    HUMANS_FOLDER,
     OFFICIAL_SOURCES,
     PROPERTIES,
     STIMULI_FILE,
     OfficialProperty,
-    render_definition,
 )
-from leaderboard.reference.recipes.recipe import ImportedProperty, ImportReport
-from leaderboard.reference.source_tables import SourceRow, SourceTable, read_source_table
+from leaderboard.reference.recipes.recipe import Draft, ImportedProperty, ImportOptions
+from leaderboard.reference.source_files import SourceFile
+from leaderboard.reference.source_tables import SourceRow, SourceTable, parse_source_table
 from leaderboard.reference.tables import TRIAL_HEADER
 from leaderboard.trial_names import Ambiguous, TrialNames, Unknown
 
@@ -68,38 +66,57 @@ class _Judgement:
         return Fraction(self.n_right, self.n)
 
 
-def import_physion(source: Path, instance: Instance) -> ImportReport:
-    """Make an instance of Physion from its official files.
+def is_physion_file(name: str) -> bool:
+    """Tell whether a path ends in the name of one of the official files."""
+    return name.rpartition("/")[2] in {STIMULI_FILE, *(p.human_file for p in PROPERTIES)}
+
+
+def list_physion_remotes(benchmark: Benchmark) -> tuple[Remote, ...]:
+    """List the official files, each taken whole and known by its checksum."""
+    return tuple(RemoteFile(source.what, source.url, source.sha256) for source in benchmark.sources)
+
+
+def draft_physion(
+    files: Sequence[SourceFile], definition: bytes, options: ImportOptions, problems: Problems
+) -> Draft:
+    """Make a reference of Physion from its official files.
 
     Parameters
     ----------
-    source
-        The folder with ``stimulus_names_and_labels.csv`` and ``humans/``.
-    instance
-        Where to make it; there must be no reference yet.
+    files
+        Among them ``stimulus_names_and_labels.csv`` and one file of human accuracy for each property.
+    definition
+        The content of ``benchmark.toml``.
+    options
+        Nothing is open here, so they change nothing.
+    problems
+        Receives every name that does not match and every number that cannot be.
 
     Raises
     ------
     SourceError
-        If an official file is missing or malformed. Names that do not match are problems in the report.
-    InstanceError
-        If there is a reference already.
+        If an official file is missing or malformed.
     """
-    require_new(instance)
-    problems = Problems()
-    stimuli = read_source_table(source / STIMULI_FILE, STIMULI_COLUMNS)
-    human_tables = [
-        read_source_table(source / HUMANS_FOLDER / p.human_file, HUMAN_COLUMNS) for p in PROPERTIES
-    ]
+    del options
+    stimuli = _parse_official(files, STIMULI_FILE, STIMULI_COLUMNS)
+    human_tables = [_parse_official(files, p.human_file, HUMAN_COLUMNS) for p in PROPERTIES]
     sources = _lock_sources([stimuli, *human_tables], problems)
     trials = _parse_trials(stimuli)
     judgements = {
         p.name: _match_people(p, table, trials, problems)
         for p, table in zip(PROPERTIES, human_tables, strict=True)
     }
-    manifest = create_instance(instance, _render_reference(trials, judgements), sources=sources)
     properties = tuple(_summarize(p, trials, judgements[p.name]) for p in PROPERTIES)
-    return ImportReport("Physion", instance.root, manifest, properties, tuple(problems))
+    return Draft(_render_reference(definition, trials, judgements), properties, sources)
+
+
+def _parse_official(files: Sequence[SourceFile], name: str, columns: Sequence[str]) -> SourceTable:
+    found = [file for file in files if file.name.rpartition("/")[2] == name]
+    if not found:
+        raise SourceError(f"{name} is not among the official files", "is the folder complete?")
+    if len({file.sha256 for file in found}) > 1:
+        raise SourceError(f"{found[0].origin} and {found[1].origin} differ", f"keep one {name}")
+    return parse_source_table(found[0], columns)
 
 
 def _lock_sources(tables: Iterable[SourceTable], problems: Problems) -> tuple[Source, ...]:
@@ -236,10 +253,12 @@ def _compare_accuracy(judgements: Iterable[_Judgement], file: str, problems: Pro
 
 
 def _render_reference(
-    trials: Mapping[str, _Trial], judgements: Mapping[str, Mapping[str, _Judgement]]
+    definition: bytes,
+    trials: Mapping[str, _Trial],
+    judgements: Mapping[str, Mapping[str, _Judgement]],
 ) -> dict[str, bytes]:
     """Write the definition, the trials of each property and the human counts as files."""
-    files = {BENCHMARK_FILE: render_definition()}
+    files: dict[str, str] = {}
     human_rows = []
     for p in PROPERTIES:
         own = [trial for trial in trials.values() if trial.scenario == p.scenario]
@@ -249,7 +268,7 @@ def _render_reference(
         human_rows += [(j.trial.trial_id, j.n, j.n_yes) for j in judged]
     if human_rows:
         files[HUMAN_TRIALS_FILE] = csv_text(RATING_HEADER, human_rows)
-    return {name: text.encode() for name, text in files.items()}
+    return {BENCHMARK_FILE: definition} | {name: text.encode() for name, text in files.items()}
 
 
 def _summarize(

@@ -11,7 +11,7 @@ STIMULI_SHA256 = "b62791a59978f929ca89ea4f58fe7314899d19810588f9bad0708294651c87
 HUMANS_FOLDER = "humans"
 
 # The public repository at the commit whose files the recipe was written for.
-_REPOSITORY = "https://github.com/cogtoolslab/physics-benchmarking-neurips2021/blob/fd02f3f"
+_REPOSITORY = "https://github.com/cogtoolslab/physics-benchmarking-neurips2021/raw/fd02f3f"
 _TRIALS = 150
 
 _DEFAULT_TRACK = "all-scenarios"
@@ -119,7 +119,7 @@ OFFICIAL_SOURCES = (
 )
 
 
-def render_definition() -> str:
+def render_definition() -> bytes:
     """Write ``benchmark.toml``.
 
     The question is the one that people were asked. A track takes every way of testing, because the
@@ -148,4 +148,4 @@ def render_definition() -> str:
     }
     parts = [tomli_w.dumps(general), "[grading]\n" + tomli_w.dumps(grading)]
     parts += [f"[[{kind}]]\n" + tomli_w.dumps(table) for kind, rows in tables.items() for table in rows]
-    return "\n".join(parts)
+    return "\n".join(parts).encode()

@@ -1,12 +1,29 @@
-"""What a recipe is and what it reports."""
+"""What a recipe is, what it is told, and what it makes of official files."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
-from leaderboard.instance import Instance
-from leaderboard.models import Manifest
-from leaderboard.problems import Problem
+from leaderboard.models import Benchmark, Source
+from leaderboard.problems import Problems
+from leaderboard.reference.fetching import Remote
+from leaderboard.reference.source_files import SourceFile
+
+
+@dataclass(frozen=True)
+class ImportOptions:
+    """How to read official files that leave something open.
+
+    Attributes
+    ----------
+    columns
+        Names of columns in files of human data by what they hold (``participant``, ``trial``, ``response``
+        and so on); what is not named is recognised by content.
+    allow_unmatched
+        Whether answers that name no trial are left out instead of refused.
+    """
+
+    columns: Mapping[str, str] = field(default_factory=dict)
+    allow_unmatched: bool = False
 
 
 @dataclass(frozen=True)
@@ -23,23 +40,49 @@ class ImportedProperty:
 
 
 @dataclass(frozen=True)
-class ImportReport:
-    """What an import made, and every oddity of the official files that it met."""
+class Draft:
+    """A reference as a recipe reads it from official files, before anything is written.
 
-    title: str
-    root: Path
-    manifest: Manifest
+    Attributes
+    ----------
+    contents
+        The reference's files by name, all but the manifest.
+    properties
+        What was imported, by property.
+    sources
+        The official files that were used, with the checksums of what was read.
+    dropped
+        Why trials that are in the lists cannot be graded, by their id; they get errata.
+    """
+
+    contents: Mapping[str, bytes]
     properties: tuple[ImportedProperty, ...]
-    problems: tuple[Problem, ...]
+    sources: tuple[Source, ...]
+    dropped: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """One benchmark's way from official files to a new instance.
+    """One benchmark's way from official files to a reference.
 
-    ``run`` takes the folder of the official files and the instance to make.
+    Attributes
+    ----------
+    name, title
+        How commands and people call the benchmark.
+    render_definition
+        Writes ``benchmark.toml`` for a new instance; one that is there already is used instead.
+    is_wanted
+        Tells from a file's path whether it may be an official file that the recipe reads.
+    list_remotes
+        Says what to fetch, from the sources that a definition names.
+    draft
+        Makes the reference of a definition from the files, and collects every oddity of them; None if they
+        cannot be made one, and then a problem is an error that says why.
     """
 
     name: str
     title: str
-    run: Callable[[Path, Instance], ImportReport]
+    render_definition: Callable[[], bytes]
+    is_wanted: Callable[[str], bool]
+    list_remotes: Callable[[Benchmark], tuple[Remote, ...]]
+    draft: Callable[[Sequence[SourceFile], bytes, ImportOptions, Problems], Draft | None]
