@@ -3,19 +3,21 @@
 import tomllib
 from dataclasses import dataclass
 
+import numpy as np
 from pydantic import ValidationError
 
 from leaderboard.errors import InstanceError
 from leaderboard.files import sha256_hex
 from leaderboard.grading import METRICS_VERSION
 from leaderboard.instance import PREDICTIONS_FILE, RESULT_FILE, SUBMISSION_FILE, Instance
+from leaderboard.ledger import published_dirs
 from leaderboard.metrics.accuracy import Floats, credits_of
 from leaderboard.models import Metadata, Result, Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.problems import Problems
 from leaderboard.reference import Reference
 from leaderboard.submission import RawSubmission, read_submission
-from leaderboard.validation.predictions import judge_predictions
+from leaderboard.validation.predictions import Predictions, judge_predictions
 
 
 @dataclass(frozen=True)
@@ -28,12 +30,15 @@ class Entry:
         Its name, what it says of itself, and what grading found.
     credits : (n_trials,)
         What each trial earned; 0 where not covered.
+    probabilities : (n_trials,)
+        P(YES) as submitted; NaN where there is no answer.
     """
 
     slug: str
     metadata: Metadata
     result: Result
     credits: Floats
+    probabilities: Floats
 
     @property
     def is_baseline(self) -> bool:
@@ -52,16 +57,17 @@ class Entry:
 
 
 def load_entries(instance: Instance, reference: Reference) -> tuple[Entry, ...]:
-    """Read the committed results of all submissions, by slug.
+    """Read the committed results of all submissions that the ledger does not withdraw, by slug.
 
     Raises
     ------
     InstanceError
-        If a submission has no result, or one made from other predictions or another reference.
+        If the ledger cannot be understood, or if a submission has no result, or one made from other
+        predictions or another reference.
     """
     return tuple(
         load_entry(read_submission(folder, instance.display_path(folder)), reference)
-        for folder in instance.submission_dirs()
+        for folder in published_dirs(instance)
     )
 
 
@@ -77,7 +83,14 @@ def load_entry(raw: RawSubmission, reference: Reference) -> Entry:
     seal = (reference.manifest.digest, reference.manifest.kind)
     if (result.inputs.reference_digest, result.inputs.reference_kind) != seal:
         raise InstanceError(f"{raw.location}: {RESULT_FILE} was made with another reference", hint)
-    return Entry(raw.slug or "", metadata, result, _load_credits(raw, reference))
+    predictions = _load_predictions(raw, reference)
+    return Entry(
+        raw.slug or "",
+        metadata,
+        result,
+        credits=credits_of(predictions.probabilities, reference.labels, predictions.answered),
+        probabilities=np.where(predictions.answered, predictions.probabilities, np.nan),
+    )
 
 
 def _content(raw: RawSubmission, name: str) -> bytes:
@@ -110,9 +123,9 @@ def _parse_result(raw: RawSubmission) -> Result:
         ) from error
 
 
-def _load_credits(raw: RawSubmission, reference: Reference) -> Floats:
+def _load_predictions(raw: RawSubmission, reference: Reference) -> Predictions:
     content, path = _content(raw, PREDICTIONS_FILE), raw.path_of(PREDICTIONS_FILE)
     predictions = judge_predictions(content, sha256_hex(content), reference, path, Problems())
     if predictions is None:
         raise InstanceError(f"{path} is not valid", f"see: leaderboard validate {raw.location}")
-    return credits_of(predictions.probabilities, reference.labels, predictions.answered)
+    return predictions
