@@ -1,54 +1,37 @@
 """From the answers of a run to predictions for a reference, with an account of all that does not fit."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from leaderboard.converting.log import Answer, Run
+from leaderboard.converting.matching import (
+    AmbiguousAnswer,
+    MatchedAnswer,
+    list_scenario_names,
+    match_answers,
+)
+from leaderboard.converting.merging import Prediction, are_equal, group_by_repeat, merge_repeats
+from leaderboard.converting.traps import Traps, count_traps
 from leaderboard.errors import SourceError
 from leaderboard.files import csv_text, write_atomic
 from leaderboard.instance import PREDICTIONS_FILE
 from leaderboard.reference import Reference
 from leaderboard.reference.cells import quote
-from leaderboard.trial_names import Ambiguous, Resolved, TrialNames
-
-
-@dataclass(frozen=True)
-class Prediction:
-    """A line of ``predictions.csv``; the probability keeps the log's digits."""
-
-    trial_id: str
-    probability: str
-
-
-@dataclass(frozen=True)
-class MatchedAnswer:
-    """An answer, the trial that it is about, and that trial's scenario."""
-
-    answer: Answer
-    trial_id: str
-    scenario: str
-
-
-@dataclass(frozen=True)
-class AmbiguousAnswer:
-    """An answer whose name fits several trials."""
-
-    answer: Answer
-    trial_ids: tuple[str, ...]
+from leaderboard.submission import Status
 
 
 @dataclass(frozen=True)
 class RepeatedTrial:
-    """A trial that a run answers more than once; equal answers count as one, others as none."""
+    """A trial that a run answers more than once for a repeat; equal answers count as one, others as none."""
 
     trial_id: str
     answers: tuple[Answer, ...]
 
     @property
     def is_consistent(self) -> bool:
-        """Whether all its answers have the same probability."""
-        return len({answer.probability for answer in self.answers}) == 1
+        """Whether its answers say the same, repeat by repeat."""
+        return all(are_equal(answers) for answers in group_by_repeat(self.answers))
 
 
 @dataclass(frozen=True)
@@ -87,10 +70,14 @@ class Conversion:
     contradicting
         Answers that are kept although the log takes another outcome to be true than the reference.
     doubtful
-        Answers that are kept although their numbers do not fit together.
+        Answers that are kept although their log does not agree with itself about them.
     unknown_scenarios
         Names of scenarios in the log that the reference does not know, so that it could not be checked
         whether their trials belong there.
+    traps
+        Counts over all trials that the run answers, whether their scenario is whole or not.
+    reader
+        Version of the reader that turned texts into answers, None if there were no texts to read.
     """
 
     name: str
@@ -106,58 +93,66 @@ class Conversion:
     contradicting: tuple[MatchedAnswer, ...]
     doubtful: tuple[MatchedAnswer, ...]
     unknown_scenarios: tuple[str, ...]
+    traps: Traps
+    reader: int | None = None
 
+    def to_columns(self) -> dict[str, list[str]]:
+        """Give the predictions as columns, from which any library makes its data frame.
 
-@dataclass
-class _Matches:
-    """Answers sorted by what their names mean."""
-
-    matched: dict[str, list[MatchedAnswer]] = field(default_factory=dict)
-    unmatched: list[Answer] = field(default_factory=list)
-    ambiguous: list[AmbiguousAnswer] = field(default_factory=list)
-    misplaced: list[MatchedAnswer] = field(default_factory=list)
+        Probabilities are texts, since unanswered trials have none and the log's digits are kept.
+        """
+        return {
+            "trial_id": [prediction.trial_id for prediction in self.predictions],
+            "probability": [prediction.probability for prediction in self.predictions],
+            "status": [prediction.status.value for prediction in self.predictions],
+        }
 
 
 def convert_run(run: Run, reference: Reference) -> Conversion:
     """Turn a run's answers into predictions for the scenarios that it covers whole.
 
     Nothing is guessed: an answer counts only if its name means exactly one trial, and a trial only if all
-    answers to it agree.
+    answers to it agree, but for repeats: these make one probability.
     """
-    scenarios_by_name = _list_scenario_names(reference)
-    matches = _match_answers(run, reference, scenarios_by_name)
-    repeated = tuple(
-        RepeatedTrial(trial_id, tuple(match.answer for match in found))
-        for trial_id, found in matches.matched.items()
-        if len(found) > 1
-    )
+    scenarios_by_name = list_scenario_names(reference)
+    matches = match_answers(run, reference, scenarios_by_name)
+    repeated = tuple(_find_repeated(matches.matched))
     unusable = {trial.trial_id for trial in repeated if not trial.is_consistent}
-    usable = {t: found[0] for t, found in matches.matched.items() if t not in unusable}
+    usable = {t: found for t, found in matches.matched.items() if t not in unusable}
+    predictions = {t: _predict(t, usable[t]) for t in reference.trial_ids if t in usable}
     omitted = _find_omitted(reference, usable)
     left_out = {scenario.scenario for scenario in omitted}
-    written = [usable[t] for t in reference.trial_ids if t in usable and usable[t].scenario not in left_out]
-    everything = [match for found in matches.matched.values() for match in found]
+    written = [t for t in predictions if usable[t][0].scenario not in left_out]
     return Conversion(
         name=run.name,
         benchmark=reference.benchmark.title,
         n_rows=len(run.answers),
-        predictions=tuple(Prediction(match.trial_id, match.answer.probability) for match in written),
+        predictions=tuple(predictions[t] for t in written),
         scenarios=tuple(s.id for s in reference.benchmark.scenarios if s.id not in left_out),
         omitted=omitted,
         unmatched=tuple(matches.unmatched),
         ambiguous=tuple(matches.ambiguous),
         misplaced=tuple(matches.misplaced),
         repeated=repeated,
-        contradicting=_find_contradicting(written, reference),
-        doubtful=tuple(match for match in everything if match.answer.doubts),
-        unknown_scenarios=tuple(sorted({a.scenario_name for a in run.answers} - scenarios_by_name.keys())),
+        contradicting=_find_contradicting([usable[t][0] for t in written], reference),
+        doubtful=tuple(m for found in matches.matched.values() for m in found if m.answer.doubts),
+        unknown_scenarios=tuple(sorted({a.scenario_name for a in run.answers} - {"", *scenarios_by_name})),
+        traps=count_traps(
+            list(predictions.values()),
+            reference,
+            n_duplicated=len(repeated),
+            n_ambiguous=len(matches.ambiguous),
+        ),
+        reader=run.reader,
     )
 
 
 def render_predictions(conversion: Conversion) -> bytes:
-    """Render the predictions as the content of ``predictions.csv``."""
-    rows = [(prediction.trial_id, prediction.probability) for prediction in conversion.predictions]
-    return csv_text(("trial_id", "probability"), rows).encode()
+    """Render the predictions as the content of ``predictions.csv``, with statuses if one is not answered."""
+    rows = [(p.trial_id, p.probability, p.status.value) for p in conversion.predictions]
+    if all(prediction.status is Status.ANSWERED for prediction in conversion.predictions):
+        return csv_text(("trial_id", "probability"), [row[:2] for row in rows]).encode()
+    return csv_text(("trial_id", "probability", "status"), rows).encode()
 
 
 def write_predictions(conversion: Conversion, file: Path) -> None:
@@ -202,53 +197,37 @@ def _require_predictions(conversions: Sequence[Conversion]) -> None:
     names = ", ".join(conversion.name for conversion in conversions)
     n_rows = sum(conversion.n_rows for conversion in conversions)
     unmatched = [answer for conversion in conversions for answer in conversion.unmatched]
-    example = f", for example {quote(unmatched[0].trial_name)}" if unmatched else ""
+    traps = max((conversion.traps for conversion in conversions), key=lambda traps: traps.n_matched)
+    found = f"{n_rows:,} rows give an answer to {traps.n_matched:,} of {traps.n_trials:,} trials"
+    if unmatched:
+        example = quote(unmatched[0].trial_name)
+        found = f"{len(unmatched):,} of {n_rows:,} rows match no trial, for example {example}"
+    benchmark = conversions[0].benchmark
     raise SourceError(
-        f"{names}: nothing to write, because no scenario of {conversions[0].benchmark} is covered whole; "
-        f"{len(unmatched):,} of {n_rows:,} rows match no trial{example}",
+        f"{names}: nothing to write, because no scenario of {benchmark} is covered whole; {found}",
         "is this a log of that benchmark, and is it complete?",
     )
 
 
-def _list_scenario_names(reference: Reference) -> dict[str, set[str]]:
-    """Map ids, property names and aliases to the scenarios that they can mean."""
-    scenarios: dict[str, set[str]] = {}
-    for p in reference.benchmark.properties:
-        own = {scenario.id for scenario in reference.benchmark.scenarios_of(p.name)}
-        scenarios.update({scenario: {scenario} for scenario in own})
-        for name in (p.name, *p.aliases):
-            scenarios.setdefault(name, set()).update(own)
-    return scenarios
+def _find_repeated(matched: Mapping[str, Sequence[MatchedAnswer]]) -> Iterator[RepeatedTrial]:
+    for trial_id, found in matched.items():
+        groups = group_by_repeat([match.answer for match in found]) if len(found) > 1 else []
+        answers = tuple(answer for group in groups if len(group) > 1 for answer in group)
+        if answers:
+            yield RepeatedTrial(trial_id, answers)
 
 
-def _match_answers(run: Run, reference: Reference, scenarios_by_name: Mapping[str, set[str]]) -> _Matches:
-    names = TrialNames(reference.trial_ids)
-    matches = _Matches()
-    for answer in run.answers:
-        found = names.resolve(answer.trial_name)
-        if isinstance(found, Ambiguous):
-            matches.ambiguous.append(AmbiguousAnswer(answer, found.trial_ids))
-        elif isinstance(found, Resolved):
-            match = MatchedAnswer(answer, found.trial_id, _scenario_of(found.trial_id, reference))
-            if match.scenario in scenarios_by_name.get(answer.scenario_name, {match.scenario}):
-                matches.matched.setdefault(found.trial_id, []).append(match)
-            else:
-                matches.misplaced.append(match)
-        else:
-            matches.unmatched.append(answer)
-    return matches
+def _predict(trial_id: str, found: Sequence[MatchedAnswer]) -> Prediction:
+    return merge_repeats(trial_id, [group[0] for group in group_by_repeat([m.answer for m in found])])
 
 
-def _scenario_of(trial_id: str, reference: Reference) -> str:
-    index = int(reference.scenarios[reference.trial_index[trial_id]])
-    return reference.benchmark.scenarios[index].id
-
-
-def _find_omitted(reference: Reference, usable: Mapping[str, MatchedAnswer]) -> tuple[OmittedScenario, ...]:
+def _find_omitted(
+    reference: Reference, usable: Mapping[str, Sequence[MatchedAnswer]]
+) -> tuple[OmittedScenario, ...]:
     counts = []
     for scenario in reference.benchmark.scenarios:
         n_trials = int(reference.in_scenario(scenario.id).sum())
-        n_answered = sum(match.scenario == scenario.id for match in usable.values())
+        n_answered = sum(found[0].scenario == scenario.id for found in usable.values())
         counts.append(OmittedScenario(scenario.id, n_answered, n_trials))
     return tuple(count for count in counts if count.n_answered < max(count.n_trials, 1))
 
@@ -257,5 +236,5 @@ def _find_contradicting(written: Sequence[MatchedAnswer], reference: Reference) 
     return tuple(
         match
         for match in written
-        if match.answer.outcome != bool(reference.labels[reference.trial_index[match.trial_id]])
+        if match.answer.outcome not in (None, bool(reference.labels[reference.trial_index[match.trial_id]]))
     )

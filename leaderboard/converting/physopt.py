@@ -8,6 +8,7 @@ from typing import Literal
 
 from leaderboard.converting.conversion import Conversion, convert_run
 from leaderboard.converting.log import Answer, Run
+from leaderboard.converting.records import Options
 from leaderboard.errors import SourceError
 from leaderboard.ids import is_id
 from leaderboard.reference import Reference
@@ -50,6 +51,18 @@ class _Protocol:
     def name(self) -> str:
         """A name that can serve as a slug."""
         return re.sub(r"[^a-z0-9]+", "-", f"{self.model}-{self.training}-{self.readout}".lower()).strip("-")
+
+
+def read_runs(files: Sequence[Path], options: Options) -> list[Run]:
+    """Read every run in some files; ``options`` say nothing that these files leave open.
+
+    Raises
+    ------
+    SourceError
+        If a file is malformed, or two runs would have the same name.
+    """
+    del options
+    return list(_read_runs(files).values())
 
 
 def split_runs(files: Sequence[Path], reference: Reference) -> dict[str, Conversion]:

@@ -6,12 +6,10 @@ from pathlib import Path
 import pytest
 
 from builders import build_reference
+from leaderboard.converting import READER_VERSION, make_run
 from leaderboard.converting.conversion import (
-    AmbiguousAnswer,
     Conversion,
-    MatchedAnswer,
     OmittedScenario,
-    Prediction,
     RepeatedTrial,
     convert_run,
     render_predictions,
@@ -19,8 +17,12 @@ from leaderboard.converting.conversion import (
     write_runs,
 )
 from leaderboard.converting.log import Answer, Run
+from leaderboard.converting.matching import AmbiguousAnswer, MatchedAnswer
+from leaderboard.converting.merging import Prediction
+from leaderboard.converting.traps import Traps
 from leaderboard.errors import SourceError
 from leaderboard.reference import Reference
+from leaderboard.submission import Status
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +68,15 @@ def test_complete_run_is_converted_whole(reference: Reference) -> None:
         contradicting=(),
         doubtful=(),
         unknown_scenarios=(),
+        traps=Traps(
+            n_trials=12,
+            n_matched=12,
+            statuses=((Status.ANSWERED, 12),),
+            n_pairs=6,
+            n_alike=6,
+            repeats=((1, 12),),
+            n_answers=12,
+        ),
     )
 
 
@@ -76,6 +87,29 @@ def test_decorated_names_are_resolved(reference: Reference) -> None:
     ]
     conversion = convert(answers, reference)
     assert tuple(prediction.trial_id for prediction in conversion.predictions) == reference.trial_ids
+
+
+def test_paths_of_other_systems_are_resolved(reference: Reference) -> None:
+    """A log may name the files of a video on Windows, folders marked by the kind of file, or links."""
+    answers = answer_all(reference)
+    for index, answer in enumerate(answers):
+        name = answer.trial_name.replace("/", "_mp4/", 1)
+        backslashed = name.replace("/", "\\")
+        link = f"https://example.com/{name.replace(',', '%2C')}_id.png"
+        answers[index] = replace(
+            answer, trial_name=link if index % 2 else f"D:\\my data\\{backslashed}_aimg.mp4"
+        )
+    conversion = convert(answers, reference)
+    assert tuple(prediction.trial_id for prediction in conversion.predictions) == reference.trial_ids
+
+
+def test_names_without_their_copy_count_for_no_trial(reference: Reference) -> None:
+    """Both members of the pair are named, and the scenario is left out."""
+    first, *others = answer_all(reference)
+    unclear = replace(first, trial_name="alpha_one/set=a,b/0000_img.mp4")
+    conversion = convert([unclear, *others], reference)
+    assert conversion.ambiguous == (AmbiguousAnswer(unclear, reference.trial_ids[:2]),)
+    assert conversion.omitted == (OmittedScenario("alpha_one", 3, 4),)
 
 
 def test_incomplete_scenario_is_left_out(reference: Reference) -> None:
@@ -158,6 +192,65 @@ def test_unequal_repetition_counts_as_no_answer(reference: Reference) -> None:
     assert conversion.omitted == (OmittedScenario("alpha_one", 3, 4),)
 
 
+def test_repeats_are_merged(reference: Reference) -> None:
+    """Answers for different repeats of a trial give their mean; two for the same are one too many."""
+    first, *others = answer_all(reference)
+    asked = [replace(first, repeat=str(k), probability=p) for k, p in enumerate(("1", "0", "1", "1"))]
+    conversion = convert([*asked, *others], reference)
+    assert conversion.predictions[0] == Prediction(first.trial_name, "0.75", n_repeats=4, n_answered=4)
+    assert (conversion.repeated, conversion.traps.repeats) == ((), ((1, 11), (4, 1)))
+    twice = [*asked, replace(asked[1], line=99, probability="1")]
+    spoilt = convert([*twice, *others], reference)
+    assert [trial.answers for trial in spoilt.repeated] == [(twice[1], twice[4])]
+    assert spoilt.omitted == (OmittedScenario("alpha_one", 3, 4),)
+    assert (spoilt.traps.n_duplicated, spoilt.traps.n_matched) == (1, 11)
+
+
+def test_columns_go_in_and_out(reference: Reference) -> None:
+    """Columns of a data frame make a run, rows of one trial being repeats, and predictions are columns."""
+    names = [f"videos/{trial_id}_img.mp4" for trial_id in reference.trial_ids]
+    texts = ["Yes.", None, *["no"] * 10]
+    run = make_run([*names, names[0]], [*texts, "Final answer: no"], "mine")
+    columns = convert_run(run, reference).to_columns()
+    assert columns["trial_id"] == list(reference.trial_ids)
+    assert columns["probability"] == ["0.5", "", *["0"] * 10]
+    assert columns["status"] == ["answered", "unparsable", *["answered"] * 10]
+    assert run.reader == READER_VERSION
+    with pytest.raises(ValueError, match="shorter"):
+        make_run(names, texts[:-1])
+
+
+def test_gaps_of_data_frames_are_no_answers(reference: Reference) -> None:
+    """None and NaN are what a data frame has where a model said nothing; other things are refused."""
+    texts: list[object] = ["yes", *[None, float("nan")] * 5, "no"]
+    columns = convert_run(make_run(reference.trial_ids, texts), reference).to_columns()
+    assert columns["status"] == ["answered", *["unparsable"] * 10, "answered"]
+    with pytest.raises(ValueError, match=r"^the answer in row 2 is 1, not a text$"):
+        make_run(reference.trial_ids, ["yes", 1, *texts[2:]])
+
+
+def test_unanswered_trials_keep_their_scenario_whole(reference: Reference) -> None:
+    """A trial without an answer is written with its status, and the column is there only if needed."""
+    first, *others = answer_all(reference)
+    silent = replace(first, probability="", status=Status.REFUSED)
+    conversion = convert([silent, *others], reference)
+    assert conversion.omitted == ()
+    lines = render_predictions(conversion).splitlines()
+    assert lines[:3] == [
+        b"trial_id,probability,status",
+        b'"alpha_one-copy0/set=a,b/0000",,refused',
+        b'"alpha_one-copy1/set=a,b/0000",0.01,answered',
+    ]
+
+
+def test_log_need_not_say_scenario_or_outcome(reference: Reference) -> None:
+    """What the log does not say is not compared."""
+    answers = [replace(a, scenario_name="", outcome=None) for a in answer_all(reference)]
+    conversion = convert(answers, reference)
+    assert (conversion.unknown_scenarios, conversion.contradicting) == ((), ())
+    assert len(conversion.predictions) == 12
+
+
 def test_contradicting_outcome_is_told_and_kept(reference: Reference) -> None:
     """Where the log takes another outcome to be true than the label, the prediction stands."""
     first, *others = answer_all(reference)
@@ -198,6 +291,12 @@ def test_nothing_to_write_is_an_error(reference: Reference, tmp_path: Path) -> N
     with pytest.raises(SourceError) as caught:
         write_predictions(conversion, tmp_path / "predictions.csv")
     assert caught.value.message == message
+    twice = [
+        *answer_all(reference),
+        *(replace(answer, probability="0.125") for answer in answer_all(reference)),
+    ]
+    with pytest.raises(SourceError, match=r"covered whole; 24 rows give an answer to 0 of 12 trials$"):
+        write_predictions(convert(twice, reference), tmp_path / "predictions.csv")
     with pytest.raises(SourceError, match="nothing to write"):
         write_runs({"run": conversion}, tmp_path / "runs")
     assert list(tmp_path.iterdir()) == []

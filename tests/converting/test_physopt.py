@@ -17,7 +17,9 @@ from leaderboard.converting.physopt import COLUMNS, split_runs
 from leaderboard.errors import SourceError
 from leaderboard.instance import Instance
 from leaderboard.reference import Reference, load_reference
+from leaderboard.reference.importing import import_reference
 from leaderboard.reference.recipes import RECIPES
+from leaderboard.reference.source_files import read_source_files
 
 Row = dict[str, str]
 
@@ -268,7 +270,9 @@ def results_file(shared_dir: Path) -> Path:
 @pytest.fixture(scope="module")
 def physion(shared_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Reference:
     instance = Instance(tmp_path_factory.mktemp("real") / "physion")
-    RECIPES["physion"].run(shared_dir / "data" / "physion-v1", instance)
+    recipe = RECIPES["physion"]
+    files = read_source_files([shared_dir / "data" / "physion-v1"], recipe.is_wanted)
+    import_reference(recipe, files, instance)
     return load_reference(instance)
 
 

@@ -2,16 +2,14 @@
 
 from dataclasses import replace
 
-from leaderboard.converting.conversion import (
-    AmbiguousAnswer,
-    Conversion,
-    MatchedAnswer,
-    OmittedScenario,
-    Prediction,
-    RepeatedTrial,
-)
+from leaderboard.converting.conversion import Conversion, OmittedScenario, RepeatedTrial
 from leaderboard.converting.log import Answer
-from leaderboard.report.conversion import render_conversion
+from leaderboard.converting.matching import AmbiguousAnswer, MatchedAnswer
+from leaderboard.converting.merging import Prediction
+from leaderboard.converting.traps import Traps
+from leaderboard.problems import Problem
+from leaderboard.report.conversion import conversion_data, render_conversion
+from leaderboard.submission import Status
 
 CLEAN = Conversion(
     name="cswm-all-a",
@@ -27,6 +25,21 @@ CLEAN = Conversion(
     contradicting=(),
     doubtful=(),
     unknown_scenarios=(),
+    traps=Traps(
+        n_trials=2,
+        n_matched=2,
+        statuses=((Status.ANSWERED, 2),),
+        n_ties=1,
+        repeats=((1, 2),),
+        n_answers=2,
+    ),
+)
+SIGNS = (
+    "  before you send it:\n"
+    "    trials: 2 of 2 matched, 0 missing, 0 duplicated; rows ambiguous: 0\n"
+    "    statuses: answered 2\n"
+    "    YES: 0 of 2 (0.0 %) of the answered trials, and exactly one half: 1\n"
+    "    pairs with the same answer to both members: none of 0\n"
 )
 
 
@@ -34,11 +47,41 @@ def answer(line: int, name: str = "ramp_0001", scenario: str = "rollslide", *dou
     return Answer("logs/results.csv", line, name, scenario, "0.5", outcome=True, doubts=doubts)
 
 
-def test_clean_run_takes_one_line() -> None:
-    """Where nothing is odd the counts are all there is to say."""
+def test_clean_run_ends_with_the_signs_of_mistakes() -> None:
+    """Where nothing is odd the counts are all there is to say; those that give away mistakes always are."""
     assert render_conversion(CLEAN) == (
-        "cswm-all-a: 2 rows give 2 predictions, for 1 of the 1 scenarios of Physion\n"
+        f"cswm-all-a: 2 rows give 2 predictions, for 1 of the 1 scenarios of Physion\n{SIGNS}"
     )
+
+
+def test_repeats_reader_and_warnings_are_told() -> None:
+    """How often trials were asked, which reader read the answers, and what validation warns of."""
+    traps = replace(CLEAN.traps, repeats=((4, 1), (5, 1)), n_answers=9, n_unanswered=2)
+    text = render_conversion(
+        replace(CLEAN, traps=traps, reader=7),
+        [Problem("equal-to-labels", "the probabilities equal the labels", "p.csv", hint="did it see them?")],
+    )
+    assert text.endswith(
+        "    repeats, of which the mean is written: 1 trials 4 times, 1 trials 5 times; "
+        "2 of 9 answers say neither YES nor NO\n"
+        "    texts were read by version 7 of the reader: submit with --answer-reader 7\n"
+        "  p.csv: warning: equal-to-labels: the probabilities equal the labels\n"
+        "      did it see them?\n"
+    )
+
+
+def test_account_for_programs_has_every_count() -> None:
+    """The data hold what the text tells, with the version of the reader."""
+    data = conversion_data(replace(CLEAN, reader=7), [])
+    assert (data["run"], data["answer_reader"], data["statuses"]) == ("cswm-all-a", 7, {"answered": 2})
+    assert data["validation"] == {"valid": True, "errors": [], "warnings": []}
+
+
+def test_places_and_scenarios_that_a_log_lacks_are_left_out() -> None:
+    """A sample of a log without lines has its number; where no scenario is named there is none to count."""
+    sample = replace(answer(4, "other", ""), file="logs/run.json", unit="sample")
+    text = render_conversion(replace(CLEAN, unmatched=(sample,)))
+    assert "rows about trials that Physion does not have: 1\n      run.json, sample 4: 'other'\n" in text
 
 
 def test_every_oddity_is_told_with_examples() -> None:
@@ -78,16 +121,20 @@ def test_every_oddity_is_told_with_examples() -> None:
         "  kept, but worth a look:\n"
         "    trials that end differently in the log than by their label: 1 of 2 (roll 1)\n"
         "      results.csv:2: ramp_0001 is YES in the log, its label is NO\n"
-        "    rows whose numbers do not fit together: 1 (rollslide 1)\n"
+        "    rows that do not agree with themselves: 1 (rollslide 1)\n"
         "      results.csv:3: ramp_0002: odd; odder\n"
         "    trials with several answers that are equal, used once: 1\n"
         "      ramp_0001: results.csv:2, results.csv:22\n"
         "    scenarios that Physion does not know, so that only trials count: set_7\n"
+        f"{SIGNS}"
     )
 
 
 def test_names_from_logs_cannot_control_the_terminal() -> None:
-    """A name with control characters is shown escaped."""
-    text = render_conversion(replace(CLEAN, unmatched=(answer(5, "a\x1b[31mb"),)))
+    """A name with control characters, of a trial or of a scenario, is shown escaped."""
+    hostile = answer(5, "a\x1b[31mb", "\x1b[2J")
+    text = render_conversion(replace(CLEAN, unmatched=(hostile,), unknown_scenarios=("\x1b[2J", "\ud800")))
     assert "'a\\x1b[31mb'" in text
+    assert "does not have: 1 ('\\x1b[2J' 1)" in text
+    assert "so that only trials count: '\\x1b[2J', '\\ud800'" in text
     assert "\x1b" not in text
