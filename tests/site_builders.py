@@ -155,7 +155,7 @@ def score_of(cell: Element) -> str:
 
 def interval_of(cell: Element) -> str:
     """The interval below a number, as it is printed; nothing where there is none."""
-    return "".join((part[0].tail or "").strip() for part in cell.iter() if part.get("class") == "interval")
+    return "".join((part.text or "").strip() for part in cell.iter() if part.get("class") == "interval")
 
 
 def html_files(files: dict[str, bytes]) -> Iterator[tuple[str, Element]]:

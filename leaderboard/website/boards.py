@@ -1,24 +1,35 @@
 """From the board of a track to its page."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from leaderboard.grading import find_metric
 from leaderboard.models import Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Row
+from leaderboard.website.board_pages import (
+    BoardColumn,
+    BoardPage,
+    BoardRow,
+    BoardSection,
+    ColumnGroup,
+    Traits,
+)
+from leaderboard.website.comparison_tables import COMPARISONS_PATH, list_comparisons, pair_key
 from leaderboard.website.describing import (
     badges_of,
     board_path,
     count_of,
     describe_coverage,
     describe_people,
+    figure_path,
     submission_path,
 )
+from leaderboard.website.forests import draw_board
 from leaderboard.website.material import Count, Material
 from leaderboard.website.numbers import EN_DASH, Footnotes, name_p
-from leaderboard.website.pages import BoardPage, BoardRow, BoardSection, Cell, Column, ColumnGroup, Link
-from leaderboard.website.quantities import find_quantity
+from leaderboard.website.pages import Cell, Link
+from leaderboard.website.quantities import Described, find_quantity
 from leaderboard.website.remarks import list_remarks
 
 NOT_COVERED = "not all of these trials are covered"
@@ -27,6 +38,7 @@ NO_COUNTERPART = "not tested both with and without property inference"
 GAIN = find_quantity("property_gain")
 CEILING = find_quantity("ceiling")
 FACT_TITLES = ("Family, inputs", "Date")
+FIRST_ORDERS = {"higher": "desc", "lower": "asc", "none": "desc"}
 
 
 @dataclass(frozen=True)
@@ -39,6 +51,12 @@ class ScoreColumn:
     scope: str = OVERALL
     subset: str = "all"
 
+    @property
+    def key(self) -> str:
+        """Its name in addresses and downloads, which begins as in the table of all numbers."""
+        name = f"{self.metric}.{self.scope}"
+        return name if self.subset == "all" else f"{name}.{self.subset}"
+
 
 def compose_board(board: Board, material: Material) -> BoardPage:
     """Gather what the page of a board shows."""
@@ -49,15 +67,25 @@ def compose_board(board: Board, material: Material) -> BoardPage:
         path=board_path(board),
         title=board.track.title,
         summary=_describe_size(material),
-        tracks=_link_tracks(material, board),
+        tracks=link_tracks(material, board, board_path),
         caption=_describe_order(material),
         groups=_group_columns(composer, material),
         fact_titles=FACT_TITLES,
         sections=sections,
         footnotes=composer.footnotes.texts,
+        drawings=draw_board(board, material),
+        figure=Link("by property, on easy and on hard trials", figure_path(board)),
         remarks=list_remarks(board, material),
+        comparisons=_link_comparisons(board, material),
+        pairs=tuple(pair_key(c.a, c.b) for c in list_comparisons(board, material)),
         elsewhere=_link_unplaced(material) if board.track.default else (),
     )
+
+
+def _link_comparisons(board: Board, material: Material) -> Link | None:
+    if not list_comparisons(board, material):
+        return None
+    return Link("comparisons of those at the top", COMPARISONS_PATH)
 
 
 def _choose_columns(material: Material) -> tuple[ScoreColumn, ...]:
@@ -76,15 +104,20 @@ def _choose_columns(material: Material) -> tuple[ScoreColumn, ...]:
 
 
 def _group_columns(composer: "_RowComposer", material: Material) -> tuple[ColumnGroup, ...]:
-    groups: dict[str, list[Column]] = {}
+    groups: dict[str, list[BoardColumn]] = {}
     for column in composer.columns:
-        metric = find_metric(column.metric)
         below = _describe_count(column.metric, material.count(column.scope, column.subset))
-        groups.setdefault(column.group, []).append(Column(column.title, below, metric.name, metric.meaning))
+        described = _describe_column(find_metric(column.metric), column.title, below, column.key)
+        groups.setdefault(column.group, []).append(described)
     if composer.has_gain:
         below = count_of(material.count(OVERALL).n, "trial")
-        groups["Gain, points"] = [Column(GAIN.title, below, GAIN.name, GAIN.meaning)]
+        groups["Gain, points"] = [_describe_column(GAIN, GAIN.title, below, f"{GAIN.name}.{OVERALL}")]
     return tuple(ColumnGroup(title, tuple(members)) for title, members in groups.items())
+
+
+def _describe_column(quantity: Described, title: str, below: str, key: str) -> BoardColumn:
+    first = FIRST_ORDERS[quantity.direction]
+    return BoardColumn(title, below, quantity.name, quantity.meaning, key=key, first=first)
 
 
 def _describe_count(metric: str, count: Count) -> str:
@@ -121,7 +154,9 @@ class _RowComposer:
     def compose(self, rows: Sequence[Row]) -> tuple[BoardRow, ...]:
         """Print submissions."""
         best = _name_best(rows)
-        return tuple(self._compose_row(row, best) for row in rows)
+        names = sorted({_sort_name(row) for row in rows})
+        places = {name: place for place, name in enumerate(names)}
+        return tuple(self._compose_row(row, best, places[_sort_name(row)]) for row in rows)
 
     def compose_people(self) -> BoardRow:
         """Print people; where submissions have their human r, people have its ceiling."""
@@ -138,7 +173,7 @@ class _RowComposer:
         score = self.material.people_score(column.metric, column.scope, column.subset)
         return self.footnotes.cell(find_metric(column.metric), score, absent=NOT_FOR_PEOPLE)
 
-    def _compose_row(self, row: Row, best: str) -> BoardRow:
+    def _compose_row(self, row: Row, best: str, place: int) -> BoardRow:
         entry, about = row.entry, row.entry.metadata.submission
         model = entry.metadata.model
         coverage = () if entry.is_complete else (describe_coverage(entry, self.material),)
@@ -153,6 +188,7 @@ class _RowComposer:
             details=(about.team, *coverage),
             cells=tuple(self._print_scores(row)),
             facts=(f"{model.family}, {model.inputs}", about.date.isoformat()),
+            traits=Traits(place, model.family, model.inputs, about.date.isoformat()),
         )
 
     def _print_scores(self, row: Row) -> Iterator[Cell]:
@@ -166,6 +202,10 @@ class _RowComposer:
             yield self.footnotes.cell(GAIN, score, absent=NO_COUNTERPART, remark=remark)
 
 
+def _sort_name(row: Row) -> str:
+    return row.entry.metadata.submission.name.casefold()
+
+
 def _name_best(rows: Sequence[Row]) -> str:
     """Say in words who cannot be told from the best; nothing where there is nobody to be told from."""
     are_best = [row.standing.is_among_best for row in rows if row.standing]
@@ -174,11 +214,12 @@ def _name_best(rows: Sequence[Row]) -> str:
     return "among the best" if sum(are_best) > 1 else "the best"
 
 
-def _link_tracks(material: Material, current: Board) -> tuple[Link, ...]:
+def link_tracks(material: Material, current: Board, path_of: Callable[[Board], str]) -> tuple[Link, ...]:
+    """Link the pages of one kind of all tracks."""
     return tuple(
         Link(
             board.track.title,
-            board_path(board),
+            path_of(board),
             count_of(len(board.ranked) + len(board.partial), "submission"),
             is_current=board is current,
         )

@@ -1,7 +1,10 @@
 """Words and addresses that several pages share."""
 
+import numpy as np
+
 from leaderboard.grading.panels import N_CROSSFIT_SPLITS
 from leaderboard.grading.scopes import CROSSFIT_SUBSETS
+from leaderboard.metrics.accuracy import Floats
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Entry
 from leaderboard.website.material import Material
@@ -22,9 +25,29 @@ def board_path(board: Board) -> str:
     return "index.html" if board.track.default else f"tracks/{board.track.id}/index.html"
 
 
+def figure_path(board: Board) -> str:
+    """Say where the paper's figure of a track is."""
+    return "figure.html" if board.track.default else f"tracks/{board.track.id}/figure.html"
+
+
+def property_path(name: str) -> str:
+    """Say where a property's page is."""
+    return f"properties/{name.lower()}/index.html"
+
+
+def scenario_path(property_name: str, scenario_id: str) -> str:
+    """Say where a scenario's page is, for the several scenarios of one property."""
+    return f"properties/{property_name.lower()}/{scenario_id}/index.html"
+
+
 def submission_path(slug: str) -> str:
     """Say where a submission's page is."""
     return f"submissions/{slug}/index.html"
+
+
+def submission_trials_path(slug: str) -> str:
+    """Say where the page of a submission's trials is."""
+    return f"submissions/{slug}/trials.html"
 
 
 def count_of(count: int, one: str, many: str = "") -> str:
@@ -63,6 +86,16 @@ def describe_people(material: Material) -> str:
     if people.responses is None:
         return responses
     return f"{count_of(len(people.responses.participant_ids), 'person', 'people')}, {responses}"
+
+
+def warn_of_simulation(material: Material) -> str:
+    """Say what every figure of a simulated reference must say itself, since it may be shown alone."""
+    return "Synthetic reference: labels and people are simulated." if material.reference.is_synthetic else ""
+
+
+def answers_of(entry: Entry) -> Floats:
+    """Give P(YES) of each trial, 0.5 where there is no answer, as metrics do; (n_trials,)."""
+    return np.nan_to_num(entry.probabilities, nan=0.5)
 
 
 def describe_chance(quantity: Described) -> str:

@@ -7,9 +7,9 @@ from leaderboard.models import Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Entry
 from leaderboard.website.describing import badges_of
+from leaderboard.website.feed_items import Feed, FeedItem
 from leaderboard.website.material import Material
 from leaderboard.website.numbers import show_interval, show_percent
-from leaderboard.website.pages import Feed, FeedItem
 
 NEVER = "1970-01-01"
 ACCURACY = find_metric("accuracy")

@@ -4,27 +4,35 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from leaderboard.comparing import Comparison
 from leaderboard.errors import InstanceError
 from leaderboard.grading import Scores, Yardstick, grade_people, list_scopes, subset_masks
 from leaderboard.ids import SLUG_RULE, is_slug
-from leaderboard.instance import PREDICTIONS_FILE, RESULT_FILE, SUBMISSION_FILE, Instance
+from leaderboard.instance import PREDICTIONS_FILE, PUBLISHED_FILE, RESULT_FILE, SUBMISSION_FILE, Instance
+from leaderboard.ledger import load_ledger, published_dirs
 from leaderboard.metrics.accuracy import Booleans
 from leaderboard.metrics.pairs import find_pairs
 from leaderboard.models import Score, Track
 from leaderboard.models.benchmark import OVERALL
+from leaderboard.models.ledger import LedgerLine
+from leaderboard.models.published import PublishedNumber
 from leaderboard.ranking import Board, Entry, Row, load_entry, rank_entries
 from leaderboard.reference import Reference
+from leaderboard.reference.published import read_published
 from leaderboard.submission import read_submission
+from leaderboard.website.neighbours import compare_neighbours
+from leaderboard.website.texts import NO_TEXTS, Texts
 
 DOWNLOADS = (PREDICTIONS_FILE, SUBMISSION_FILE, RESULT_FILE)
 
 
 @dataclass(frozen=True)
 class Publication:
-    """A graded submission and the files that are offered for download, name to bytes."""
+    """A graded submission, the files that are offered for download, name to bytes, and its public record."""
 
     entry: Entry
     files: dict[str, bytes]
+    history: tuple[LedgerLine, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -46,12 +54,21 @@ class Material:
         People's own scores; empty without human data.
     boards
         The default track's, then those of other tracks that have submissions.
+    published
+        Figures of papers, which are never ranked.
+    comparisons
+        Of submissions at the top of each board, board by board.
+    texts
+        What maintainers say.
     """
 
     reference: Reference
     people: Scores
     publications: tuple[Publication, ...]
     boards: tuple[Board, ...]
+    published: tuple[PublishedNumber, ...] = ()
+    comparisons: tuple[Comparison, ...] = ()
+    texts: Texts = NO_TEXTS
 
     @cached_property
     def standings(self) -> dict[str, tuple[Board, Row]]:
@@ -96,35 +113,58 @@ class Material:
 
 
 def load_publications(instance: Instance, reference: Reference) -> tuple[Publication, ...]:
-    """Read all submissions by slug, each once, so that what is offered is what was checked.
+    """Read all submissions but withdrawn ones, each once, so that what is offered is what was checked.
 
     Raises
     ------
     InstanceError
-        If one has no result or one that does not belong to its files, or if its folder's name is no slug.
+        If one has no result or one that does not belong to its files, if its folder's name is no slug, or
+        if the ledger cannot be understood.
     """
-    publications = []
-    for folder in instance.submission_dirs():
+    publications, ledger = [], load_ledger(instance)
+    for folder in published_dirs(instance):
         location = instance.display_path(folder)
         if not is_slug(folder.name):
             raise InstanceError(f"{location} cannot be published under this name", f"a slug is {SLUG_RULE}")
         raw = read_submission(folder, location)
         entry = load_entry(raw, reference)
         files = {file.name: file.content for file in raw.files if file.content is not None}
-        publications.append(Publication(entry, {name: files[name] for name in DOWNLOADS}))
+        history = tuple(line for line in ledger.lines if line.slug == entry.slug)
+        publications.append(Publication(entry, {name: files[name] for name in DOWNLOADS}, history))
     return tuple(publications)
 
 
-def gather(reference: Reference, publications: Sequence[Publication]) -> Material:
-    """Rank the submissions and score people."""
+def load_published(instance: Instance) -> tuple[PublishedNumber, ...]:
+    """Read the figures of papers, if there are any.
+
+    Raises
+    ------
+    SourceError
+        If the file is malformed.
+    """
+    file = instance.reference_file(PUBLISHED_FILE)
+    return read_published(file) if file.is_file() else ()
+
+
+def gather(
+    reference: Reference,
+    publications: Sequence[Publication],
+    published: Sequence[PublishedNumber] = (),
+    texts: Texts = NO_TEXTS,
+) -> Material:
+    """Rank the submissions, compare those at the top, and score people."""
     entries = [publication.entry for publication in publications]
     yardstick = Yardstick.of(reference)
-    boards = (rank_entries(entries, track, yardstick=yardstick) for track in _default_first(reference))
+    ranked = (rank_entries(entries, track, yardstick=yardstick) for track in _default_first(reference))
+    boards = tuple(board for board in ranked if board.track.default or board.ranked or board.partial)
     return Material(
         reference=reference,
         people=grade_people(reference, yardstick=yardstick),
         publications=tuple(sorted(publications, key=lambda publication: publication.entry.slug)),
-        boards=tuple(board for board in boards if board.track.default or board.ranked or board.partial),
+        boards=boards,
+        published=tuple(published),
+        comparisons=tuple(compare_neighbours(boards, yardstick)),
+        texts=texts,
     )
 
 

@@ -11,8 +11,7 @@ from leaderboard.website.describing import (
 from leaderboard.website.material import Material
 from leaderboard.website.numbers import ABSENT, show_range
 from leaderboard.website.pages import Fact, MethodPage, MetricEntry
-from leaderboard.website.people_tables import compose_people_table
-from leaderboard.website.quantities import OF_BOARDS, OF_PEOPLE, Described
+from leaderboard.website.quantities import OF_BOARDS, OF_COMPARISONS, OF_PEOPLE, Described
 from leaderboard.website.remarks import describe_intervals
 
 DIRECTIONS = {"higher": "higher is better", "lower": "lower is better", "none": "neither end is better"}
@@ -46,14 +45,13 @@ def compose_method(material: Material) -> MethodPage:
     halves = FIXED_HALVES if CROSSFIT_SUBSETS[0] in subsets else ""
     terms.append(Fact("Interval", f"{describe_intervals(material)} {INTERVAL_LIMITS}{halves}"))
     terms += [Fact(word, meaning) for word, meaning in TERMS.items()]
-    others = (*OF_BOARDS, *(OF_PEOPLE if material.people else ()))
+    others = (*OF_BOARDS, *OF_COMPARISONS, *(OF_PEOPLE if material.people else ()))
     return MethodPage(
         path="method.html",
         title="Method",
         summary="What every number means: its direction, its range, and what guessing gives.",
         metrics=tuple(_describe_metric(metric) for metric in METRICS),
         others=tuple(_describe_metric(quantity) for quantity in others),
-        people=compose_people_table(material),
         terms=tuple(terms),
     )
 

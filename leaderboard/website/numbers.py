@@ -43,6 +43,15 @@ def show_number(value: float) -> str:
     return f"{value:z.3f}".replace("-", MINUS)
 
 
+def show_signed(value: float) -> str:
+    r"""Print a number with three decimals and its sign.
+
+    >>> show_signed(0.1234), ascii(show_signed(-0.1234)), show_signed(-0.0001)
+    ('+0.123', "'\\u22120.123'", '+0.000')
+    """
+    return f"{value:+z.3f}".replace("-", MINUS)
+
+
 def show_p(value: float) -> str:
     """Print a p-value with three decimals, and smaller ones as a bound.
 
@@ -88,7 +97,8 @@ def show_ends(low: str, high: str) -> str:
 
 
 SHARES = ("accuracy", "pair_accuracy", "pair_order", "yes_rate", "best_probability")
-GAPS = ("human_gap", "property_gain", "detectable_difference")
+GAPS = ("human_gap", "property_gain", "detectable_difference", "accuracy_difference")
+SIGNED = ("human_r_difference",)
 
 
 def unit_of(quantity: Described) -> str:
@@ -102,6 +112,8 @@ def printer_of(quantity: Described) -> Callable[[float], str]:
     """Choose how the values of a metric are printed."""
     if quantity.is_p_value:
         return show_p
+    if quantity.name in SIGNED:
+        return show_signed
     return {"%": show_percent, "points": show_points}.get(unit_of(quantity), show_number)
 
 

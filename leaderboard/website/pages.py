@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
-MANY_ROWS = 25
+from leaderboard.website.figure_files import MAX_PICTURE, Export
+from leaderboard.website.figures.marks import Drawing
+
 FEW_COLUMNS = 5
 
 
@@ -64,14 +66,6 @@ class Column:
 
 
 @dataclass(frozen=True)
-class ColumnGroup:
-    """Columns under one heading."""
-
-    title: str
-    columns: tuple[Column, ...]
-
-
-@dataclass(frozen=True)
 class Link:
     """A link within the site (a path from its root) or out of it (a whole address)."""
 
@@ -92,30 +86,6 @@ class Fact:
 
 
 @dataclass(frozen=True)
-class BoardRow:
-    """A line of a board; people have no slug. ``ranks`` are those that it could have as well."""
-
-    slug: str
-    rank: str
-    ranks: str
-    name: str
-    badges: tuple[str, ...]
-    details: tuple[str, ...]
-    cells: tuple[Cell, ...]
-    facts: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class BoardSection:
-    """Rows that belong together; ``note`` stands in for them if there are none."""
-
-    kind: str
-    title: str
-    rows: tuple[BoardRow, ...]
-    note: str = ""
-
-
-@dataclass(frozen=True)
 class Page:
     """What every page has: where it is, what it is called, and what it is about."""
 
@@ -128,34 +98,31 @@ class Page:
         """The way from this page to the root of the site, so that links work from any place."""
         return "../" * self.path.count("/")
 
-
-@dataclass(frozen=True)
-class BoardPage(Page):
-    """The board of one track."""
-
-    tracks: tuple[Link, ...]
-    caption: str
-    groups: tuple[ColumnGroup, ...]
-    fact_titles: tuple[str, ...]
-    sections: tuple[BoardSection, ...]
-    footnotes: tuple[str, ...]
-    remarks: tuple[Fact, ...]
-    elsewhere: tuple[Link, ...]
+    @property
+    def figures(self) -> tuple[Drawing, ...]:
+        """What is drawn on it."""
+        return ()
 
     @property
-    def n_columns(self) -> int:
-        """Number of the table's columns."""
-        return 2 + sum(len(group.columns) for group in self.groups) + len(self.fact_titles)
+    def figures_dir(self) -> str:
+        """Where the files of its figures are, seen from the page."""
+        stem = self.path.rpartition("/")[2].removesuffix(".html")
+        return "figures/" if stem == "index" else f"figures/{stem}/"
 
     @property
-    def has_ranks(self) -> bool:
-        """Whether any row says which ranks it could have as well."""
-        return any(row.ranks for section in self.sections for row in section.rows)
+    def formats(self) -> tuple[str, ...]:
+        """In which formats its figures can be had; a PNG takes as long as a hundred SVGs."""
+        return ("svg", "csv")
+
+    def formats_of(self, drawing: Drawing) -> tuple[str, ...]:
+        """In which formats a figure can be had: a list of hundreds is no picture."""
+        is_picture = drawing.height <= MAX_PICTURE
+        return tuple(ending for ending in self.formats if is_picture or ending != "png")
 
     @property
-    def is_long(self) -> bool:
-        """Whether the table had better scroll in a box of its own, under headings that stay."""
-        return sum(len(section.rows) for section in self.sections) > MANY_ROWS
+    def exports(self) -> tuple[Export, ...]:
+        """What of its figures can be had as files of their own."""
+        return tuple(Export(drawing.key, (drawing,), self.formats_of(drawing)) for drawing in self.figures)
 
 
 @dataclass(frozen=True)
@@ -170,12 +137,16 @@ class Tile:
 
 @dataclass(frozen=True)
 class ScopeRow:
-    """The scores of one scope; ``level`` is 0 for overall, 1 for a property or a bin, 2 for a scenario."""
+    """Scores of one scope, or of one submission, which then has a page as its target.
+
+    ``level`` is 0 for overall or people, 1 for a property, a bin or a submission, 2 for a scenario.
+    """
 
     title: str
     level: int
     counts: tuple[str, ...]
     cells: tuple[Cell, ...]
+    target: str = ""
 
 
 @dataclass(frozen=True)
@@ -211,6 +182,43 @@ class GainLine:
 
 
 @dataclass(frozen=True)
+class Disagreement:
+    """A trial, its label, and what a submission and the n people who judged it say of it."""
+
+    trial: Link
+    probability: str
+    exact: str
+    people: str
+    n: str
+    label: str
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Badge:
+    """A badge as it is drawn: two fields side by side, the words of each and how wide it is.
+
+    ``back`` is the colour behind the message, dark enough for white letters.
+    """
+
+    label: str
+    message: str
+    label_width: float
+    message_width: float
+    back: str
+
+    @property
+    def width(self) -> float:
+        """How wide the badge is."""
+        return self.label_width + self.message_width
+
+    @property
+    def words(self) -> str:
+        """What it says, for whoever cannot see it."""
+        return f"{self.label}: {self.message}"
+
+
+@dataclass(frozen=True)
 class SubmissionPage(Page):
     """Everything about one submission."""
 
@@ -219,14 +227,28 @@ class SubmissionPage(Page):
     badges: tuple[str, ...]
     standing: str
     gain: GainLine | None
+    comparisons: tuple[Link, ...]
     board: Link
     tiles: tuple[Tile, ...]
     checks: tuple[Fact, ...]
+    drawings: tuple[Drawing, ...]
+    trials: Link
+    disagreements: tuple[Disagreement, ...]
     tables: tuple[ScoreTable, ...]
+    diagrams: tuple[Drawing, ...]
     calibrations: tuple[ScoreTable, ...]
     about: tuple[Fact, ...]
     downloads: tuple[Link, ...]
     provenance: tuple[Fact, ...]
+    history: tuple[Fact, ...]
+    citation: str
+    badge: Badge
+    snippets: tuple[Fact, ...]
+
+    @property
+    def figures(self) -> tuple[Drawing, ...]:
+        """At a glance, and calibration."""
+        return (*self.drawings, *self.diagrams)
 
 
 @dataclass(frozen=True)
@@ -247,42 +269,26 @@ class MethodPage(Page):
 
     metrics: tuple[MetricEntry, ...]
     others: tuple[MetricEntry, ...]
-    people: ScoreTable | None
     terms: tuple[Fact, ...]
 
 
 @dataclass(frozen=True)
-class FeedItem:
-    """A submission as news."""
-
-    id: str
-    slug: str
-    title: str
-    author: str
-    updated: str
-    summary: str
-
-
-@dataclass(frozen=True)
-class Feed:
-    """The news feed."""
-
-    id: str
-    title: str
-    updated: str
-    entries: tuple[FeedItem, ...]
-
-
-@dataclass(frozen=True)
 class Frame:
-    """What surrounds every page: title, synthetic or not, navigation and provenance of the numbers."""
+    """What surrounds every page: title, synthetic or not, navigation and provenance of the numbers.
+
+    ``properties`` is the path of the first property's page, which leads to the others; ``scripts`` are what
+    enhances a board.
+    """
 
     title: str
+    properties: str
     is_synthetic: bool
     benchmark: str
     reference_kind: str
     reference_digest: str
+    commit: str
     grader: str
     metrics_version: int
     stylesheet: str
     icon: str
+    scripts: tuple[str, ...]

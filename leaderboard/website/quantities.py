@@ -129,7 +129,46 @@ OF_BOARDS: tuple[Quantity, ...] = (
 )
 """What submissions are beside each other."""
 
+OF_COMPARISONS: tuple[Quantity, ...] = (
+    Quantity(
+        "accuracy_difference",
+        "Difference in accuracy",
+        "Accuracy of one submission minus that of another, its interval from the same resamples for both.",
+        "none",
+        -1,
+        1,
+    ),
+    Quantity(
+        "paired_p",
+        "Exact p of a difference",
+        "Two-sided p of the paired sign-flip test over pairs; overall pools the pairs of all properties.",
+        "none",
+        0,
+        1,
+        is_p_value=True,
+    ),
+    Quantity(
+        "human_r_difference",
+        "Difference in human r",
+        "Human r of one submission minus that of another, its interval from the same resamples for both.",
+        "none",
+        -2,
+        2,
+    ),
+    Quantity(
+        "rival_kappa",
+        "Kappa of two submissions",
+        "Cohen's kappa between the answers of two submissions: their agreement beyond chance.",
+        "none",
+        -1,
+        1,
+        0,
+    ),
+)
+"""What two submissions are compared by."""
+
 
 def find_quantity(name: str) -> Quantity:
     """Look up what is no metric of one submission alone; the name must be one of those above."""
-    return next(quantity for quantity in (*OF_PEOPLE, *OF_BOARDS) if quantity.name == name)
+    known = (*OF_PEOPLE, *OF_BOARDS, *OF_COMPARISONS)
+    return next(quantity for quantity in known if quantity.name == name)

@@ -2,6 +2,7 @@
 
 from functools import cache
 from importlib.resources import files
+from pathlib import PurePosixPath
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -9,11 +10,16 @@ from leaderboard import __version__
 from leaderboard.files import sha256_hex
 from leaderboard.grading import METRICS_VERSION
 from leaderboard.reference import Reference
-from leaderboard.website.pages import Feed, Frame, Page
+from leaderboard.website.describing import property_path
+from leaderboard.website.feed_items import Feed
+from leaderboard.website.pages import Frame, Page
 
 STYLESHEET = "site.css"
 ICON = "icon.svg"
+SCRIPTS = ("vendor/datatables.js", "site.js")
+LICENSES = ("vendor/datatables-license.txt",)
 N_HASH_DIGITS = 10
+N_COMMIT_DIGITS = 12
 
 
 def render_page(template: str, frame: Frame, page: Page) -> bytes:
@@ -26,31 +32,34 @@ def render_feed(feed: Feed) -> bytes:
     return environment().get_template("feed.xml").render(feed=feed).encode()
 
 
-def frame_of(reference: Reference) -> Frame:
-    """Gather what surrounds every page."""
+def frame_of(reference: Reference, commit: str = "") -> Frame:
+    """Gather what surrounds every page; the commit is empty if it is not known."""
     benchmark, manifest = reference.benchmark, reference.manifest
     return Frame(
         title=f"{benchmark.title} leaderboard",
+        properties=property_path(benchmark.properties[0].name),
         is_synthetic=reference.is_synthetic,
         benchmark=f"{benchmark.title} {benchmark.version}",
         reference_kind=manifest.kind,
         reference_digest=manifest.digest,
+        commit=commit[:N_COMMIT_DIGITS],
         grader=__version__,
         metrics_version=METRICS_VERSION,
         stylesheet=asset_path(STYLESHEET),
         icon=asset_path(ICON),
+        scripts=tuple(asset_path(name) for name in SCRIPTS),
     )
 
 
 def render_assets() -> dict[str, bytes]:
-    """Map the paths of style and icon in the site to their bytes."""
-    return {asset_path(name): _read_asset(name) for name in (STYLESHEET, ICON)}
+    """Map the paths of style, icon, scripts and their licenses in the site to their bytes."""
+    return {asset_path(name): _read_asset(name) for name in (STYLESHEET, ICON, *SCRIPTS, *LICENSES)}
 
 
 def asset_path(name: str) -> str:
     """Name an asset after its content, so that a browser never shows a new page with an old style."""
-    stem, dot, extension = name.rpartition(".")
-    return f"assets/{stem}.{sha256_hex(_read_asset(name))[:N_HASH_DIGITS]}{dot}{extension}"
+    file = PurePosixPath(name)
+    return f"assets/{file.stem}.{sha256_hex(_read_asset(name))[:N_HASH_DIGITS]}{file.suffix}"
 
 
 @cache

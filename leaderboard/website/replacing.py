@@ -6,18 +6,19 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from leaderboard.errors import InstanceError
+from leaderboard.files import sha256_hex
+from leaderboard.website.stamps import MARKER, render_marker
 
-MARKER = ".leaderboard-site"
-MARKER_TEXT = b"Written by `leaderboard site build`, which replaces this folder as a whole.\n"
 
-
-def replace_site(folder: Path, contents: Iterable[tuple[str, bytes]]) -> None:
+def replace_site(folder: Path, contents: Iterable[tuple[str, bytes]], inputs: str | None = None) -> None:
     """Write a site beside the folder, then put it in the folder's place.
 
     Parameters
     ----------
     contents
         Paths in the site and their bytes; each is written as it comes.
+    inputs
+        What all of it was made from, as `digest_inputs` says; None if that is not known.
 
     Raises
     ------
@@ -30,7 +31,7 @@ def replace_site(folder: Path, contents: Iterable[tuple[str, bytes]]) -> None:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".tmp-", dir=folder.parent) as name:
             fresh = Path(name) / "fresh"
-            _write_all(fresh, contents)
+            _write_all(fresh, contents, inputs)
             _swap(folder, fresh, Path(name) / "old")
     except OSError as error:
         raise InstanceError(f"cannot write the site to {folder}: {error.strerror or error}") from error
@@ -53,13 +54,15 @@ def refuse_other_content(folder: Path) -> None:
         raise InstanceError(f"{folder} is not empty and not an earlier site, so it is not replaced", hint)
 
 
-def _write_all(folder: Path, contents: Iterable[tuple[str, bytes]]) -> None:
+def _write_all(folder: Path, contents: Iterable[tuple[str, bytes]], inputs: str | None) -> None:
     folder.mkdir()
-    (folder / MARKER).write_bytes(MARKER_TEXT)
+    digests: dict[str, str] = {}
     for path, content in contents:
+        digests[path] = sha256_hex(content)
         target = folder / path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(content)
+    (folder / MARKER).write_bytes(render_marker(inputs, digests))
 
 
 def _swap(folder: Path, fresh: Path, old: Path) -> None:

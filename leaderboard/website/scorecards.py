@@ -6,20 +6,28 @@ from leaderboard.grading import find_metric
 from leaderboard.models import Metadata
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Entry
+from leaderboard.website.badges import badge_path, compose_badge, list_snippets, picture_path
 from leaderboard.website.calibration_tables import compose_calibrations
+from leaderboard.website.citing import cite_submission
+from leaderboard.website.comparison_tables import link_comparisons
 from leaderboard.website.describing import (
     SUBSET_TITLES,
     badges_of,
     board_path,
     describe_chance,
     submission_path,
+    submission_trials_path,
 )
+from leaderboard.website.disagreements import find_disagreements
+from leaderboard.website.forests import draw_scopes
 from leaderboard.website.material import Material, Publication
 from leaderboard.website.numbers import Footnotes, printer_of, show_interval, unit_of
 from leaderboard.website.pages import Fact, Link, SubmissionPage, Tile
+from leaderboard.website.pair_figures import draw_pairs
 from leaderboard.website.quantities import Described, find_quantity
 from leaderboard.website.score_tables import NOT_GRADED, compose_score_tables, list_scopes
 from leaderboard.website.standings import describe_gain, describe_standing
+from leaderboard.website.trial_figures import draw_agreement, draw_calibrations
 
 PEOPLE_BESIDE: dict[str, tuple[str, Described]] = {"human_r": ("ceiling", find_quantity("ceiling"))}
 
@@ -39,14 +47,27 @@ def compose_scorecard(publication: Publication, material: Material) -> Submissio
         badges=badges_of(entry),
         standing=describe_standing(entry, material),
         gain=describe_gain(entry, material),
+        comparisons=link_comparisons(entry.slug, material),
         board=Link(board.track.title, board_path(board)),
         tiles=tuple(_compose_tiles(entry, material)),
         checks=tuple(Fact(check.code, check.message) for check in entry.result.checks),
+        drawings=(
+            *draw_scopes(entry, material),
+            *draw_agreement(entry, material),
+            *draw_pairs(entry, material),
+        ),
+        trials=Link("All trials: which pairs it gets right", submission_trials_path(entry.slug)),
+        disagreements=find_disagreements(entry, material),
         tables=compose_score_tables(entry, material),
+        diagrams=draw_calibrations(entry, material),
         calibrations=compose_calibrations(entry),
         about=tuple(_list_facts(entry.metadata)),
         downloads=_link_downloads(publication),
         provenance=tuple(_list_provenance(entry, material)),
+        history=tuple(_list_history(publication)),
+        citation=cite_submission(entry, material),
+        badge=compose_badge(entry, material),
+        snippets=tuple(list_snippets(entry, material)),
     )
 
 
@@ -100,6 +121,7 @@ def _list_facts(metadata: Metadata) -> Iterator[Fact]:
         "Training trials": None if protocol.training_trials is None else f"{protocol.training_trials:,}",
         "Auxiliary": protocol.auxiliary,
         "Selection": protocol.selection,
+        "Reader of answers": protocol.answer_reader and f"version {protocol.answer_reader}",
         "Family": model.family,
         "Inputs": model.inputs,
         "Parameters": model.parameters,
@@ -123,7 +145,17 @@ def _link_downloads(publication: Publication) -> tuple[Link, ...]:
         Link(name, f"{folder}/{name}", _describe_size(len(content)))
         for name, content in publication.files.items()
     ]
-    return (*own, Link("scores and metadata as JSON", f"api/{folder}.json"))
+    slug = publication.entry.slug
+    scores = Link("scores and metadata as JSON", f"api/{folder}.json")
+    picture = Link("badge as a picture", picture_path(slug))
+    return (*own, scores, picture, Link("badge in the form of shields.io", badge_path(slug)))
+
+
+def _list_history(publication: Publication) -> Iterator[Fact]:
+    """Tell what the public record says of the submission, oldest first."""
+    for line in publication.history:
+        reason = f": {line.reason}" if line.reason else ""
+        yield Fact(line.date.isoformat(), f"{line.event}{reason}")
 
 
 def _describe_size(n_bytes: int) -> str:

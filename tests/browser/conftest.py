@@ -1,10 +1,7 @@
 """A real browser for the built site: the system's Chromium, driven by Playwright, without network."""
 
 import os
-import threading
 from collections.abc import Iterator
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import NoReturn
 
@@ -14,6 +11,7 @@ from playwright.sync_api import Browser, sync_playwright
 from builders import build_entry, build_reference
 from leaderboard.website.replacing import replace_site
 from site_builders import build_entries, build_material, render_files
+from site_visits import serve_folder
 
 CHROMIUM = Path("/usr/bin/chromium")
 FLAGS = (
@@ -26,11 +24,6 @@ FLAGS = (
     "--disable-sync",
 )
 SUB_PATH = "some/where"
-
-
-class _QuietHandler(SimpleHTTPRequestHandler):
-    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - the name is the library's
-        """Say nothing: a test's output is its failures."""
 
 
 @pytest.fixture(scope="session")
@@ -66,10 +59,5 @@ def site_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def served(site_dir: Path) -> Iterator[str]:
     """Serve the site below a sub-path, as a project's pages are, and give its address."""
-    root = site_dir.parents[SUB_PATH.count("/")]
-    with ThreadingHTTPServer(("127.0.0.1", 0), partial(_QuietHandler, directory=str(root))) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        yield f"http://127.0.0.1:{server.server_port}/{SUB_PATH}"
-        server.shutdown()
-        thread.join()
+    with serve_folder(site_dir.parents[SUB_PATH.count("/")]) as origin:
+        yield f"{origin}/{SUB_PATH}"

@@ -7,6 +7,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page
 
+from leaderboard.website.trial_paths import trial_path
 from site_visits import Visit, start_visit
 
 pytestmark = pytest.mark.browser
@@ -19,7 +20,21 @@ KINDS = {
     "hostile submission": "submissions/hostile/index.html",
     "partial submission": "submissions/sliver/index.html",
     "baseline": "submissions/flat/index.html",
+    "figure": "figure.html",
+    "people": "people.html",
     "method": "method.html",
+    "property": "properties/alpha/index.html",
+    "scenario": "properties/alpha/alpha_one/index.html",
+    "trials": "trials/index.html",
+    "trials of a property": "trials/of/alpha.html",
+    "chosen trials": "trials/where/hard.html",
+    "trials of a submission": "submissions/hostile/trials.html",
+    "trial": trial_path("alpha_one-copy0/set=a,b/0000"),
+    "comparison": "compare/good--vs--good-too/index.html",
+    "comparisons": "compare/index.html",
+    "published": "published.html",
+    "data": "data.html",
+    "about": "about.html",
     "missing page": "404.html",
 }
 every_kind = pytest.mark.parametrize("path", KINDS.values(), ids=KINDS.keys())
@@ -88,17 +103,20 @@ def test_everything_is_there_without_javascript(browser: Browser, served: str) -
     page = visit.open("index.html")
     assert page.locator("tbody tr[id]").count() == 37
     assert page.locator("tbody tr[id=good] td.number").count() == 9
-    assert page.locator("button, input, select, script").count() == 0
+    assert page.locator("button, input, select").count() == 0
+    assert page.locator(".controls").is_hidden()
     assert page.get_by_text("Synthetic reference.").is_visible()
     page.context.close()
 
 
 def test_hostile_metadata_runs_nothing(visit: Visit) -> None:
     """A browser shows the markup that a stranger wrote as text and makes no element of it."""
-    for path in ("index.html", "submissions/hostile/index.html"):
-        page = visit.open(path)
+    for kind in ("default board", "hostile submission", "scenario", "trials of a submission", "trial"):
+        page = visit.open(KINDS[kind])
         assert page.locator("main img, main script, main style").count() == 0
         assert page.get_by_text("<img src=x onerror=alert(1)>").first.is_visible()
+    for kind in ("default board", "hostile submission"):
+        page = visit.open(KINDS[kind])
         assert page.get_by_text("<script>alert(2)</script>").first.is_visible()
     assert visit.complaints == []
 
@@ -171,6 +189,31 @@ def test_no_accessibility_rule_is_broken(visit: Visit, path: str, scheme: str) -
     assert results.response["violations"] == [], results.generate_report()
 
 
+@pytest.mark.parametrize("path", ["index.html", "figure.html", "submissions/good/index.html"])
+def test_figures_follow_the_theme(visit: Visit, path: str) -> None:
+    """Words, marks and lines have another colour in the dark, and each differs from what is behind it."""
+    seen = []
+    for scheme in ("light", "dark"):
+        visit.page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+        page = visit.open(path)
+        behind = page.locator("body").evaluate("body => getComputedStyle(body).backgroundColor")
+        paint = "group => [getComputedStyle(group).fill, getComputedStyle(group).stroke]"
+        groups = [group.evaluate(paint) for group in page.locator("svg > g").all()]
+        assert groups
+        assert not [fill for fill, stroke in groups if {fill, stroke} <= {"none", behind}]
+        seen.append(groups)
+    assert not [light for light, dark in zip(*seen, strict=True) if light == dark]
+
+
+def test_figures_stay_readable_on_a_telephone(visit: Visit) -> None:
+    """At 320 px the smallest letters are at least 9 px high, and a figure is as wide as the page."""
+    page = visit.open("submissions/good/index.html")
+    page.set_viewport_size({"width": 320, "height": 900})
+    for figure in page.locator("figure svg").all():
+        scale = figure.evaluate("svg => svg.getBoundingClientRect().width / svg.viewBox.baseVal.width")
+        assert scale * 10.5 >= 9
+
+
 def test_the_page_prints_without_navigation(visit: Visit) -> None:
     """On paper the whole table is there, the banner too, and no navigation."""
     page = visit.open("index.html")
@@ -184,7 +227,9 @@ def test_the_page_prints_without_navigation(visit: Visit) -> None:
 def test_the_feed_and_the_data_are_served(visit: Visit) -> None:
     """What pages point programs at can be fetched from where they point."""
     page = visit.open("submissions/good/index.html")
-    targets = page.locator("a[href$='.csv'], a[href$='.json'], a[href$='.xml'], a[href$='.toml']")
+    endings = ("csv", "json", "xml", "toml", "svg", "png")
+    targets = page.locator(", ".join(f"a[href$='.{ending}']" for ending in endings))
     addresses = targets.evaluate_all("links => links.map(link => link.href)")
-    assert len(addresses) == 7
+    n_figures = page.locator("figure").count()
+    assert len(addresses) == 9 + 2 * n_figures
     assert {page.request.get(address).status for address in addresses} == {200}

@@ -26,7 +26,7 @@ def test_the_site_goes_where_it_is_told(instance: Instance, tmp_path: Path) -> N
     report = build_site(instance)
     assert report.path == instance.dist_dir
     pages = [path for path in folder_files(report.path) if path.endswith(".html")]
-    assert report.n_pages == len(pages) == 9
+    assert report.n_pages == len(pages) == 48
     elsewhere = build_site(instance, tmp_path / "elsewhere")
     assert folder_files(elsewhere.path) == folder_files(report.path)
 
@@ -39,11 +39,14 @@ def test_the_site_has_the_files_that_others_rely_on(instance: Instance) -> None:
         "404.html",
         ".nojekyll",
         "method.html",
+        "data.html",
         "tracks/without/index.html",
         "submissions/good/index.html",
         "api/leaderboard.json",
         "api/reference.json",
         "api/submissions/good.json",
+        "badge/good.json",
+        "about.html",
         "leaderboard.csv",
         "feed.xml",
     } <= files.keys()
@@ -57,7 +60,9 @@ def test_downloads_are_the_very_files_that_were_graded(instance: Instance) -> No
         offered = {
             path.rpartition("/")[2]: content
             for path, content in files.items()
-            if path.startswith(f"submissions/{folder.name}/") and not path.endswith(".html")
+            if path.startswith(f"submissions/{folder.name}/")
+            and "/figures/" not in path
+            and not path.endswith(".html")
         }
         assert offered == own
 
@@ -80,6 +85,18 @@ def test_the_same_inputs_give_the_same_bytes(instance: Instance, tmp_path: Path)
         check=True,
     )
     assert folder_files(tmp_path / "second") == first
+
+
+def test_the_footer_names_the_commit_where_it_is_told(instance: Instance, tmp_path: Path) -> None:
+    """Twelve digits on every page, and another commit is another site; without one nothing is made up."""
+    first = build_site(instance, tmp_path / "site", commit="0123456789abcdef" * 2)
+    line = b"<dt>Commit</dt><dd><code>0123456789ab</code></dd>"
+    assert all(
+        line in content for path, content in folder_files(first.path).items() if path.endswith(".html")
+    )
+    second = build_site(instance, tmp_path / "site")
+    assert not second.was_current
+    assert b"<dt>Commit</dt>" not in (second.path / "index.html").read_bytes()
 
 
 def test_the_order_of_submissions_does_not_matter(material: Material) -> None:
@@ -139,10 +156,10 @@ def test_an_instance_without_submissions_has_a_site(tmp_path: Path) -> None:
     """One board with people on it, a method, and empty lists; every page is sound HTML."""
     report = build_site(write_instance(tmp_path / "empty", submissions=False))
     files = folder_files(report.path)
-    assert report.n_pages == len(list(html_files(files))) == 3
+    assert report.n_pages == len(list(html_files(files))) == 30
     assert json.loads(files["api/leaderboard.json"])["tracks"][0]["rows"] == []
 
 
 def test_pages_of_a_real_folder_are_sound_html(instance: Instance) -> None:
     """Hostile metadata came through files this time, and the strict parser still accepts every page."""
-    assert len(list(html_files(folder_files(build_site(instance).path)))) == 9
+    assert len(list(html_files(folder_files(build_site(instance).path)))) == 48

@@ -7,7 +7,7 @@ from leaderboard.grading import METRICS
 from leaderboard.website.material import Material
 from leaderboard.website.methods import compose_method
 from leaderboard.website.numbers import ABSENT, MINUS
-from leaderboard.website.quantities import OF_BOARDS, OF_PEOPLE, Described
+from leaderboard.website.quantities import OF_BOARDS, OF_COMPARISONS, OF_PEOPLE, Described
 from site_builders import build_material, parse_html, text_of
 
 
@@ -16,7 +16,7 @@ def test_every_metric_is_explained(files: dict[str, bytes]) -> None:
     rows = {
         row.get("id"): text_of(row) for row in parse_html(files["method.html"]).iter("tr") if row.get("id")
     }
-    explained: tuple[Described, ...] = (*METRICS, *OF_BOARDS, *OF_PEOPLE)
+    explained: tuple[Described, ...] = (*METRICS, *OF_BOARDS, *OF_COMPARISONS, *OF_PEOPLE)
     assert list(rows) == [quantity.name for quantity in explained]
     for quantity in explained:
         assert " ".join(quantity.meaning.split()) in rows[quantity.name]
@@ -66,34 +66,9 @@ def test_terms_say_how_sure_numbers_are(material: Material) -> None:
     assert {"Rank set", "Among the best"} <= terms.keys()
 
 
-def test_people_have_a_table_of_their_own(material: Material) -> None:
-    """How often they are right on each subset, and how well they agree, with intervals, by property."""
-    table = compose_method(material).people
-    assert table is not None
-    assert [row.title for row in table.rows] == ["Overall", "Alpha", "Beta"]
-    assert [column.title for column in table.columns] == [
-        *("Accuracy", "Easy", "Hard", "Easy, cross-fitted", "Hard, cross-fitted", "YES rate"),
-        *("Split-half r", "Reliability", "Reliability from counts", "Ceiling of human r"),
-    ]
-    ceiling = material.people_score("ceiling", "Beta", "all")
-    assert ceiling is not None
-    cell = table.rows[2].cells[-1]
-    assert [float(number) for number in (cell.exact, *cell.ends)] == [
-        ceiling.value,
-        ceiling.low,
-        ceiling.high,
-    ]
-
-
-def test_people_have_only_what_is_known_of_them() -> None:
-    """Without single responses there are no halves; without human data there is no table."""
-    counted = compose_method(build_material(build_reference(responses=False), [])).people
-    assert counted is not None
-    assert [column.title for column in counted.columns] == [
-        *("Accuracy", "Easy", "Hard", "YES rate", "Reliability", "Ceiling of human r"),
-    ]
+def test_people_are_explained_only_where_there_are_any() -> None:
+    """Without human data nothing is said of how well people agree."""
     lonely = compose_method(build_material(build_reference(n_people=0), []))
-    assert lonely.people is None
     assert "ceiling" not in [entry.name for entry in lonely.others]
 
 

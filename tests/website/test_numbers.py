@@ -24,12 +24,12 @@ from leaderboard.website.numbers import (
     show_range,
     unit_of,
 )
-from leaderboard.website.quantities import OF_BOARDS, OF_PEOPLE, Described, find_quantity
+from leaderboard.website.quantities import OF_BOARDS, OF_COMPARISONS, OF_PEOPLE, Described, find_quantity
 
 
 def test_every_metric_named_here_is_in_the_table_of_metrics() -> None:
     """The lists of shares and gaps do not outlive a metric or another number that is printed."""
-    printed: tuple[Described, ...] = (*METRICS, *OF_PEOPLE, *OF_BOARDS)
+    printed: tuple[Described, ...] = (*METRICS, *OF_PEOPLE, *OF_BOARDS, *OF_COMPARISONS)
     assert {*SHARES, *GAPS} <= {quantity.name for quantity in printed}
 
 

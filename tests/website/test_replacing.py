@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from leaderboard.errors import InstanceError
-from leaderboard.website.replacing import MARKER, replace_site
+from leaderboard.website.replacing import replace_site
+from leaderboard.website.stamps import MARKER
 from site_builders import folder_files
 
 

@@ -308,7 +308,12 @@ def test_metadata_is_complete_and_links_are_not_endorsed() -> None:
     """All that a submission says of itself is there; links out say that we do not vouch for them."""
     reference = build_reference()
     entry = build_entry(
-        reference, "full", [0.6] * reference.n_trials, training_trials=2000, auxiliary="implicit"
+        reference,
+        "full",
+        [0.6] * reference.n_trials,
+        training_trials=2000,
+        auxiliary="implicit",
+        answer_reader=1,
     )
     links = entry.metadata.links.model_copy(update={"paper": "https://example.com/?a=1&b=2"})
     model = entry.metadata.model.model_copy(update={"parameters": "32M", "pretraining": "none"})
@@ -320,6 +325,7 @@ def test_metadata_is_complete_and_links_are_not_endorsed() -> None:
         "Testing": "with property",
         "Training trials": "2,000",
         "Auxiliary": "implicit",
+        "Reader of answers": "version 1",
         "Parameters": "32M",
         "Pretraining": "none",
         "Paper": "https://example.com/?a=1&b=2",

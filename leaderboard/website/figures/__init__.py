@@ -1,0 +1,1 @@
+"""Figures of the website: coordinates computed here, printed by ``templates/drawings.html``."""
