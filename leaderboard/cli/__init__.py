@@ -25,9 +25,12 @@ COMMANDS = {
     "rank": "Print the board of a track.",
     "compare": "Compare two submissions by pairs: differences with intervals and exact tests.",
     "verify": "Grade everything again and prove every committed result.",
+    "check-changes": "Check what a branch changes: one submission, by its contact, with the right result.",
+    "ledger": "Check or extend the ledger, the public record of what was published.",
     "site": "Build or serve the website.",
-    "reference": "Show, check, seal, import or synthesize the reference data.",
+    "reference": "Show, check, seal, fetch, import or synthesize the reference data.",
     "convert": "Turn other tools' logs into predictions.csv.",
+    "readout": "Fit the paper's readout to features: predictions, a report and a plot.",
     "baselines": "Write the baselines (chance, always YES, human mean, label oracle) as submissions.",
     "audit": "Check whether published numbers are possible, consistent and better than chance.",
 }
@@ -46,7 +49,9 @@ class LazyGroup(click.Group):
         del ctx
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = importlib.import_module(f"leaderboard.cli.{cmd_name}").command
+        command: click.Command = importlib.import_module(
+            f"leaderboard.cli.{cmd_name.replace('-', '_')}"
+        ).command
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -69,9 +74,11 @@ class LazyGroup(click.Group):
 
 
 def _fail(message: str, hint: str) -> NoReturn:
-    click.echo(f"error: {message}", err=True)
-    if hint:
-        click.echo(f"  {hint}", err=True)
+    """Say what is wrong; messages may quote names of files and what others wrote."""
+    from leaderboard.report.problems import escape_line
+
+    for line in f"error: {message}".split("\n") + [f"  {line}" for line in hint.split("\n") if line]:
+        click.echo(escape_line(line), err=True)
     sys.exit(1)
 
 
