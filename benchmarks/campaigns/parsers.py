@@ -15,16 +15,16 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from builders import build_reference  # noqa: E402  (the tests' folder comes first)
+from benchmarks.campaigns.promises import require, require_sound  # noqa: E402  (the tests' folder comes first)
+from builders import build_reference  # noqa: E402
 from leaderboard.changes.git_objects import GitRepository  # noqa: E402
 from leaderboard.changes.proposals import read_proposal  # noqa: E402
 from leaderboard.changes.scope import find_slug  # noqa: E402
 from leaderboard.converting import FORMATS, Options, parse_answer  # noqa: E402
 from leaderboard.errors import SourceError  # noqa: E402
 from leaderboard.ledger import parse_ledger  # noqa: E402
-from leaderboard.problems import CODES, Problems  # noqa: E402
+from leaderboard.problems import Problems  # noqa: E402
 from leaderboard.recording.regrading import explain_regrading  # noqa: E402
-from leaderboard.report.problems import render_problems  # noqa: E402
 from leaderboard.trial_names import Ambiguous, Resolved, TrialNames  # noqa: E402
 from leaderboard.validation.folder import judge_folder  # noqa: E402
 from leaderboard.validation.metadata import judge_metadata  # noqa: E402
@@ -45,27 +45,6 @@ RESULT = {
     "scores": {"all": {"accuracy": {"value": 0.5, "low": 0.25, "high": 0.75}}},
 }
 RESULT_BYTES = json.dumps(RESULT).encode()
-
-
-def require_sound(problems: Problems) -> None:
-    """Known codes, and text that stays in its line and commands nobody."""
-    for problem in problems:
-        require(problem.code in CODES)
-        require((problem.message + problem.hint).isprintable())
-    for line in render_problems(tuple(problems), "text").splitlines():
-        require(line.isprintable() and not line.lstrip().startswith("::"))
-
-
-def require(holds: object) -> None:
-    """Complain if a promise is broken.
-
-    Raises
-    ------
-    AssertionError
-        Then.
-    """
-    if not holds:
-        raise AssertionError("a promise is broken")
 
 
 def fuzz_predictions(content: bytes) -> None:

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import NoReturn
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 from builders import build_entry, build_reference
 from leaderboard.website.replacing import replace_site
 from site_builders import build_entries, build_material, render_files
-from site_visits import serve_folder
+from site_visits import Visit, serve_folder, start_visit
 
 CHROMIUM = Path("/usr/bin/chromium")
 FLAGS = (
@@ -61,3 +61,25 @@ def served(site_dir: Path) -> Iterator[str]:
     """Serve the site below a sub-path, as a project's pages are, and give its address."""
     with serve_folder(site_dir.parents[SUB_PATH.count("/")]) as origin:
         yield f"{origin}/{SUB_PATH}"
+
+
+@pytest.fixture(scope="module")
+def origin(board_dir: Path) -> Iterator[str]:
+    """Serve the board that a module has built, and give its address."""
+    with serve_folder(board_dir.parent) as origin:
+        yield f"{origin}/site"
+
+
+@pytest.fixture
+def visit(browser: Browser, origin: str) -> Iterator[Visit]:
+    """Open a tab, which must have nothing to complain about when the test is over."""
+    visit = start_visit(browser, origin)
+    yield visit
+    visit.page.context.close()
+    assert visit.complaints == []
+
+
+@pytest.fixture
+def page(visit: Visit) -> Page:
+    """Open the board."""
+    return visit.open("index.html")

@@ -4,7 +4,6 @@ import csv
 import datetime as dt
 import json
 import re
-from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,7 @@ from playwright.sync_api import Browser, Page, Route
 from builders import build_entry, build_reference
 from leaderboard.website.replacing import replace_site
 from site_builders import HOSTILE_NAME, build_entries, build_material, render_files
-from site_visits import Visit, serve_folder, start_visit
+from site_visits import Visit, start_visit
 
 pytestmark = pytest.mark.browser
 
@@ -61,26 +60,6 @@ def board_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("board") / "site"
     replace_site(folder, render_files(build_material(reference, entries)).items())
     return folder
-
-
-@pytest.fixture(scope="module")
-def origin(board_dir: Path) -> Iterator[str]:
-    with serve_folder(board_dir.parent) as origin:
-        yield f"{origin}/site"
-
-
-@pytest.fixture
-def visit(browser: Browser, origin: str) -> Iterator[Visit]:
-    """Open a tab, which must have nothing to complain about when the test is over."""
-    visit = start_visit(browser, origin)
-    yield visit
-    visit.page.context.close()
-    assert visit.complaints == []
-
-
-@pytest.fixture
-def page(visit: Visit) -> Page:
-    return visit.open("index.html")
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,6 @@
 
 import csv
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from leaderboard.website.board_parts import split_board
 from leaderboard.website.rendering import frame_of, render_assets, render_page
 from leaderboard.website.replacing import replace_site
 from site_builders import HOSTILE_NAME, build_material
-from site_visits import Visit, serve_folder, start_visit
+from site_visits import Visit, start_visit
 
 pytestmark = pytest.mark.browser
 
@@ -60,32 +59,17 @@ def board_dir(board: BoardPage, tmp_path_factory: pytest.TempPathFactory) -> Pat
     return folder
 
 
-@pytest.fixture(scope="module")
-def origin(board_dir: Path) -> Iterator[str]:
-    with serve_folder(board_dir.parent) as origin:
-        yield f"{origin}/site"
-
-
-@pytest.fixture
-def visit(browser: Browser, origin: str) -> Iterator[Visit]:
-    """Open a tab, which must have nothing to complain about when the test is over."""
-    visit = start_visit(browser, origin)
-    yield visit
-    visit.page.context.close()
-    assert visit.complaints == []
-
-
-@pytest.fixture
-def page(visit: Visit) -> Page:
-    return visit.open("index.html")
-
-
 def key_of(row: BoardRow, board: BoardPage, key: str) -> Key:
     """What Python sorts a row by."""
     assert row.traits is not None
-    texts = {"rank": int(row.rank), "name": row.traits.place, "family": row.facts[0], "date": row.facts[1]}
+    texts: dict[str, Key] = {
+        "rank": int(row.rank),
+        "name": row.traits.place,
+        "family": row.facts[0],
+        "date": row.facts[1],
+    }
     if key in texts:
-        return texts[key]  # type: ignore[return-value]
+        return texts[key]
     keys = [column.key for group in board.groups for column in group.columns]
     cell = row.cells[keys.index(key)]
     return float(cell.exact) if cell.exact else None

@@ -5,6 +5,7 @@ import os
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import Result
@@ -38,9 +39,9 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mlp, "MAX_EPOCHS", 3)
 
 
-def write_features(root: Path, folder: Path, suffix: str = ".npz", **options: float) -> list[str]:
+def write_features(root: Path, folder: Path, suffix: str = ".npz", **options: Any) -> list[str]:
     """Write a file to fit on for each property and one of test trials; give them as options."""
-    fitting, test = simulate_files(load_reference(Instance(root)), **options)  # type: ignore[arg-type]
+    fitting, test = simulate_files(load_reference(Instance(root)), **options)
     arguments = []
     for name, arrays in fitting.items():
         arguments.append(f"--fit={name}={WRITERS[suffix](folder / f'{name}{suffix}', arrays)}")

@@ -1,6 +1,7 @@
 """How sure ranks are, against plain loops over resamples and hand-computed cases."""
 
 import itertools
+from random import Random
 from statistics import NormalDist
 
 import numpy as np
@@ -76,10 +77,10 @@ def test_a_rank_set_holds_the_ranks_that_the_scores_give(shares: Integers) -> No
 
 
 @given(SHARES, st.randoms(use_true_random=False))
-def test_the_order_of_systems_does_not_matter(shares: Integers, random: object) -> None:
+def test_the_order_of_systems_does_not_matter(shares: Integers, random: Random) -> None:
     """Everything moves with the systems."""
     order = list(range(len(shares)))
-    random.shuffle(order)  # type: ignore[attr-defined]
+    random.shuffle(order)
     turned = shares[order]
     assert (rank_sets(turned, STRATA, WEIGHTS) == rank_sets(shares, STRATA, WEIGHTS)[order]).all()
     found = find_best_probabilities(resample_scores(turned, WEIGHTS))

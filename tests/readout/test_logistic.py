@@ -1,6 +1,7 @@
 """Logistic readouts: scikit-learn's numbers, a nested choice of the strength, and simulations."""
 
 from statistics import NormalDist
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,8 +18,8 @@ from leaderboard.readout.logistic import EXPONENTS, LogisticReadout
 from leaderboard.readout.outcome import Fit
 
 
-def fit_once(seed: int, **options: float) -> tuple[Fit, np.ndarray, np.ndarray]:
-    fitting, test, hidden = simulate_sets(seed, **options)  # type: ignore[arg-type]
+def fit_once(seed: int, **options: Any) -> tuple[Fit, np.ndarray, np.ndarray]:
+    fitting, test, hidden = simulate_sets(seed, **options)
     folds = split_pairs(fitting.pair_ids, fitting.labels, seed=seed)
     return LogisticReadout(fitting, test).fit(folds, seed), fitting.labels, hidden
 

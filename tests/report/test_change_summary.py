@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from builders import build_reference
+from hostile_texts import outside_of_fences
 from leaderboard.assessing import assess
 from leaderboard.changes import ChangeCheck
 from leaderboard.problems import CODES, Problem
@@ -42,20 +43,6 @@ def judge(reference: Reference, *problems: Problem, toml: str = SUBMISSION_TOML)
     assessment = assess(raw, reference, today=dt.date(2026, 6, 1))
     assert assessment.result is not None
     return ChangeCheck("example", HEAD, problems, assessment)
-
-
-def outside_of_fences(page: str) -> str:
-    """What a page holds besides its code fences, read as Markdown does."""
-    left, end = [], None
-    for line in page.split("\n"):
-        if end is None:
-            opening = re.match(r"`{3,}", line)
-            end = opening.group() if opening else None
-            left += [] if opening else [line]
-        elif line.startswith(end) and not line.strip("`"):
-            end = None
-    assert end is None
-    return "\n".join(left)
 
 
 def test_the_page_shows_verdict_scores_and_reference(reference: Reference) -> None:
