@@ -125,7 +125,7 @@ def write_folder(folder: Path, contents: Mapping[str, bytes]) -> None:
     if os.path.lexists(folder):
         raise FileExistsError(f"{folder} exists")
     folder.parent.mkdir(parents=True, exist_ok=True)
-    with _temporary_folder(folder.parent) as temporary:
+    with temporary_folder(folder.parent) as temporary:
         staging = temporary / folder.name
         staging.mkdir()
         for relative, content in sorted(contents.items()):
@@ -252,7 +252,7 @@ def _make_temporary(folder: Path) -> tuple[int, Path]:
 
 
 @contextmanager
-def _temporary_folder(parent: Path) -> Iterator[Path]:
+def temporary_folder(parent: Path) -> Iterator[Path]:
     """Make a folder for the time of its use, with a lock on it."""
     import tempfile
 

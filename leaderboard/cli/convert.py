@@ -1,6 +1,6 @@
 """``leaderboard convert``."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
@@ -105,6 +105,7 @@ def physopt(
     else:
         conversion = convert_physopt(files, reference, training=training, readout=readout)
         conversions = {conversion.name: conversion}
+    _spare_logs(files, target["folder"], conversions)
     _finish(conversions, reference, **target)
 
 
@@ -149,6 +150,7 @@ def _make_callback(format_: Format) -> Callable[..., None]:
         if output is not None:
             conversion = choose_run(conversions, wanted)
             conversions = {conversion.name: conversion}
+        _spare_logs(files, folder, conversions)
         _finish(conversions, reference, output=output, folder=folder, as_json=as_json)
 
     return convert
@@ -163,8 +165,21 @@ def _parse_options(values: Mapping[str, Any]) -> Options:
 def _require_target(files: Sequence[Path], output: Path | None, folder: Path | None, **_: object) -> None:
     if (output is None) == (folder is None):
         raise click.UsageError("say where to: -o FILE for one run, or --split-runs DIR for all")
-    if output is not None and output.exists() and any(output.samefile(file) for file in files):
+    if output is not None and _is_log(output, files):
         raise click.UsageError(f"-o {output} would write over the log itself: name another file")
+
+
+def _spare_logs(files: Sequence[Path], folder: Path | None, names: Iterable[str]) -> None:
+    """Refuse to write a run over a log: runs are named after logs, and an earlier output is one, too."""
+    if folder is None:
+        return
+    for name in names:
+        if _is_log(target := folder / name / PREDICTIONS_FILE, files):
+            raise click.UsageError(f"{target} is the log itself: name another folder with --split-runs")
+
+
+def _is_log(target: Path, files: Sequence[Path]) -> bool:
+    return target.exists() and any(target.samefile(file) for file in files)
 
 
 def _finish(

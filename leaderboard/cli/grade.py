@@ -76,7 +76,8 @@ def _store(raw: RawSubmission, path: Path, result: Result, output: Path | None, 
     if target is None:
         return True
     if not is_check:
-        remove_leftovers(target.parent)
+        if output is None:  # another folder may hold what is not ours
+            remove_leftovers(target.parent)
         write_atomic(target, content)
         click.echo(escape_line(f"wrote {target}"), err=True)
         return True

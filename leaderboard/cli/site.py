@@ -6,7 +6,6 @@ from pathlib import Path
 import click
 
 from leaderboard.cli.location import Location
-from leaderboard.website import build_site, serve_site
 
 
 @click.group("site")
@@ -30,6 +29,8 @@ def _check_commit(_context: click.Context, _parameter: click.Parameter, value: s
 @click.pass_obj
 def build(location: Location, out: Path | None, commit: str) -> None:
     """Write the website as plain files that work from any path and from file://."""
+    from leaderboard.website import build_site
+
     report = build_site(location.find_instance(), out, commit=commit)
     note = ", as they were: nothing has changed" if report.was_current else ""
     click.echo(f"{report.n_pages} pages{note}; open {report.path / 'index.html'}")
@@ -40,5 +41,7 @@ def build(location: Location, out: Path | None, commit: str) -> None:
 @click.pass_obj
 def serve(location: Location, port: int) -> None:
     """Build the website and serve it on this machine until interrupted."""
+    from leaderboard.website import build_site, serve_site
+
     report = build_site(location.find_instance(), None)
     serve_site(report.path, port)

@@ -53,8 +53,9 @@ def find_token(environment: Mapping[str, str], host: str) -> Token:
             return _make_token(value, name)
     if value := _ask_gh(host):
         return _make_token(value, "gh")
-    message = f"no token for {host}: neither GITHUB_TOKEN nor GH_TOKEN is set, and gh has none"
-    raise TokenError(message, "run gh auth login, or put a token into the variable GITHUB_TOKEN")
+    message = f"no token for {host}: neither GITHUB_TOKEN nor GH_TOKEN is set, and gh has none to give"
+    hint = "run gh auth login, or put a classic token with the scope public_repo into GITHUB_TOKEN"
+    raise TokenError(message, hint)
 
 
 def _make_token(value: str, origin: str) -> Token:

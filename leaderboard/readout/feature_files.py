@@ -97,7 +97,7 @@ def _read_parquet(path: Path, *, with_labels: bool) -> Mapping[str, Array]:
         import pyarrow as pa
         from pyarrow import parquet
     except ImportError:
-        hint = 'install it with pip install "physionpp-leaderboard[parquet]", or save the features as .npz'
+        hint = "install it with pip install pyarrow, or save the features as .npz"
         raise SourceError(f"{path}: reading Parquet needs pyarrow, which is not installed", hint) from None
     try:
         with parquet.ParquetFile(path) as file:

@@ -112,7 +112,7 @@ def _require_scikit_learn() -> None:
     numbers = tuple(int(part) for part in found.split(".")[:2] if part.isdecimal())
     if numbers < OLDEST_SCIKIT_LEARN:
         message = f"readouts are fitted by scikit-learn {oldest} or newer; installed is {found}"
-        raise LeaderboardError(message, 'pip install "physionpp-leaderboard[readout]" installs it')
+        raise LeaderboardError(message, "pip install 'scikit-learn>=1.8' installs it")
 
 
 def _fit_parts(

@@ -13,6 +13,10 @@ from leaderboard.recording.checking import judge_vanished, read_result
 from leaderboard.recording.regrading import explain_regrading
 
 NEW = "new submission"
+UNSEEN_HINT = (
+    "in a shallow clone: git fetch --unshallow; "
+    "if its line was never committed, take that line out of the ledger"
+)
 
 FindPublished = Callable[[str, str], bytes | None]
 
@@ -59,10 +63,10 @@ class _Recorder:
     def _explain(self, before: LedgerLine, result: bytes, file: str, problems: Problems) -> str | None:
         published = self.find_published(before.slug, before.result_sha256)
         if published is None:
-            message = f"replaces a published one ({before.result_sha256[:12]}) that no commit here holds"
-            problems.add(
-                "ledger-result", message, file, hint="fetch all of the history: git fetch --unshallow"
+            message = (
+                f"replaces one that the ledger records ({before.result_sha256[:12]}) and no commit here holds"
             )
+            problems.add("ledger-result", message, file, hint=UNSEEN_HINT)
             return None
         return explain_regrading(published, result, file, problems)
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from leaderboard.files import remove_leftovers
 from leaderboard.instance import Instance
 from leaderboard.reference import load_reference
 from leaderboard.website.about_pages import compose_about
@@ -66,6 +67,7 @@ def build_site(instance: Instance, out: Path | None = None, *, commit: str = "")
     """
     folder = out or instance.dist_dir
     refuse_other_content(folder)
+    remove_leftovers(instance.site_dir)
     inputs = digest_inputs(instance, folder, commit)
     if is_current(folder, inputs):
         return SiteReport(folder, sum(1 for _ in folder.rglob("*.html")), was_current=True)

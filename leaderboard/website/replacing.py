@@ -1,12 +1,11 @@
 """Putting a built site in the place of an older one, as a whole or not at all."""
 
 import os
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
 from leaderboard.errors import InstanceError
-from leaderboard.files import sha256_hex
+from leaderboard.files import exchange_folders, sha256_hex, temporary_folder
 from leaderboard.website.stamps import MARKER, render_marker
 
 
@@ -29,10 +28,13 @@ def replace_site(folder: Path, contents: Iterable[tuple[str, bytes]], inputs: st
     refuse_other_content(folder)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=".tmp-", dir=folder.parent) as name:
-            fresh = Path(name) / "fresh"
+        with temporary_folder(folder.parent) as temporary:
+            fresh = temporary / "fresh"
             _write_all(fresh, contents, inputs)
-            _swap(folder, fresh, Path(name) / "old")
+            if folder.exists():
+                exchange_folders(folder, fresh)  # the earlier site ends with the temporary folder
+            else:
+                fresh.rename(folder)
     except OSError as error:
         raise InstanceError(f"cannot write the site to {folder}: {error.strerror or error}") from error
 
@@ -63,16 +65,3 @@ def _write_all(folder: Path, contents: Iterable[tuple[str, bytes]], inputs: str 
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(content)
     (folder / MARKER).write_bytes(render_marker(inputs, digests))
-
-
-def _swap(folder: Path, fresh: Path, old: Path) -> None:
-    """Rename the fresh folder into place; put the old one back if that fails."""
-    if not folder.exists():
-        fresh.rename(folder)
-        return
-    folder.rename(old)
-    try:
-        fresh.rename(folder)
-    except OSError:
-        old.rename(folder)
-        raise

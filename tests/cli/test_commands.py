@@ -143,8 +143,11 @@ class TestGrade:
         before = sorted(tmp_path.iterdir())
         run("grade", bare)
         assert sorted(tmp_path.iterdir()) == before
+        theirs = tmp_path / ".tmp-theirs"
+        theirs.mkdir()
         run("grade", bare, "--output", output)
         assert json.loads(output.read_text())["submission"] is None
+        assert theirs.is_dir(), "what looks half-written beside it may be anybody's"
 
     def test_output_to_a_link_is_refused(self, run: Run, example: Path, tmp_path: Path) -> None:
         """A rename would replace the link, or a device, by a file."""

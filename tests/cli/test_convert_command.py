@@ -301,6 +301,12 @@ def test_the_log_itself_is_never_written_over(run: Run, reference: Reference, tm
     for output in (file, other):
         refused = run("convert", "probabilities", file, "-o", output, exit_code=2)
         assert f"-o {output} would write over the log itself: name another file" in refused.output
+    runs = tmp_path / "runs"
+    (runs / "predictions").mkdir(parents=True)
+    earlier = file.rename(runs / "predictions" / "predictions.csv")
+    refused = run("convert", "probabilities", earlier, "--split-runs", runs, exit_code=2)
+    assert f"{earlier} is the log itself: name another folder with --split-runs" in refused.output
+    file = earlier
     assert file.read_bytes() == before
 
 

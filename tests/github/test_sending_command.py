@@ -271,8 +271,8 @@ def test_without_a_token_it_is_made_and_not_sent(
         patch.setenv("PATH", str(tmp_path / "bin"))
         shown = send(predictions, *flags(), "--pr", exit_code=1).stderr.splitlines()
     assert shown == [
-        "error: no token for 127.0.0.1: neither GITHUB_TOKEN nor GH_TOKEN is set, and gh has none",
-        "  run gh auth login, or put a token into the variable GITHUB_TOKEN",
+        "error: no token for 127.0.0.1: neither GITHUB_TOKEN nor GH_TOKEN is set, and gh has none to give",
+        "  run gh auth login, or put a classic token with the scope public_repo into GITHUB_TOKEN",
     ]
     assert (root / "submissions/example").is_dir()
     assert stage.lines() == []

@@ -42,7 +42,10 @@ def test_gh_is_asked_for_the_host() -> None:
         TokenError, match=r"^no token for github.com: neither GITHUB_TOKEN nor GH_TOKEN is set"
     ) as failure:
         find_token({}, "github.com")
-    assert failure.value.hint == "run gh auth login, or put a token into the variable GITHUB_TOKEN"
+    assert (
+        failure.value.hint
+        == "run gh auth login, or put a classic token with the scope public_repo into GITHUB_TOKEN"
+    )
 
 
 def test_without_gh_it_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

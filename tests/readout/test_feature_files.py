@@ -159,5 +159,5 @@ def test_parquet_without_its_package(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(builtins, "__import__", refuse)
     with pytest.raises(SourceError, match="reading Parquet needs pyarrow, which is not installed") as found:
         read_features(path, with_labels=True)
-    hint = 'install it with pip install "physionpp-leaderboard[parquet]", or save the features as .npz'
+    hint = "install it with pip install pyarrow, or save the features as .npz"
     assert found.value.hint == hint

@@ -167,4 +167,4 @@ def test_without_scikit_learn(installed: str | None, monkeypatch: pytest.MonkeyP
     message = f"readouts are fitted by scikit-learn 1.8 or newer; installed is {installed or 'none'}"
     with pytest.raises(LeaderboardError, match=f"^{message}$") as found:
         fit_readout(*simulate_readout(REFERENCE), REFERENCE, ONE_SEED)
-    assert found.value.hint == 'pip install "physionpp-leaderboard[readout]" installs it'
+    assert found.value.hint == "pip install 'scikit-learn>=1.8' installs it"

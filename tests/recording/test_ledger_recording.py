@@ -175,9 +175,11 @@ def test_what_replaces_an_unknown_result_is_refused(place: Place) -> None:
     place.publish()
     place.write("first", result_json(metrics_version=2))
     update = update_ledger(place.instance, lambda _slug, _sha256: None, today=DAY)
-    assert [(p.code, p.hint) for p in update.problems] == [
-        ("ledger-result", "fetch all of the history: git fetch --unshallow")
-    ]
+    hint = (
+        "in a shallow clone: git fetch --unshallow; "
+        "if its line was never committed, take that line out of the ledger"
+    )
+    assert [(p.code, p.hint) for p in update.problems] == [("ledger-result", hint)]
 
 
 def test_a_missing_result_is_refused(place: Place) -> None:

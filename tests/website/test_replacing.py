@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from leaderboard.errors import InstanceError
+from leaderboard.website import replacing
 from leaderboard.website.replacing import replace_site
 from leaderboard.website.stamps import MARKER
 from site_builders import folder_files
@@ -72,21 +73,33 @@ def test_a_failure_leaves_the_earlier_site(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [out]
 
 
-def test_a_failed_swap_puts_the_earlier_site_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Should the new folder not get its name, the old one gets it back."""
+def test_a_failed_swap_keeps_the_earlier_site(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The two folders trade places in one step; if that fails, the old one has its name."""
     out = tmp_path / "site"
     replace_site(out, [("index.html", b"old")])
-    rename = Path.rename
 
-    def refuse_fresh(self: Path, target: Path) -> Path:
-        if self.name == "fresh":
-            raise OSError(28, "No space left on device")
-        return rename(self, target)
+    def refuse(first: Path, second: Path) -> None:
+        assert (first, second.name) == (out, "fresh")
+        raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "rename", refuse_fresh)
+    monkeypatch.setattr(replacing, "exchange_folders", refuse)
     with pytest.raises(InstanceError, match=r"cannot write the site to .*: No space left on device"):
         replace_site(out, [("index.html", b"new")])
     assert folder_files(out)["index.html"] == b"old"
+    assert list(tmp_path.iterdir()) == [out]
+
+
+def test_there_is_a_site_at_every_moment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No rename takes the earlier site away before the new one is there: a kill leaves one of them."""
+    out = tmp_path / "site"
+    replace_site(out, [("index.html", b"old")])
+
+    def forbid(self: Path, target: Path) -> Path:
+        raise AssertionError(f"{self} is moved to {target}")
+
+    monkeypatch.setattr(Path, "rename", forbid)
+    replace_site(out, [("index.html", b"new")])
+    assert folder_files(out)["index.html"] == b"new"
 
 
 def test_a_link_to_a_folder_is_followed(tmp_path: Path) -> None:
