@@ -1,5 +1,5 @@
 # `make` lists the targets. Everything happens in .venv, from the locks; nothing else needs to be installed first
-# but Python 3.11 or newer and, for the browser tests, a package manager that has Chromium.
+# but Python 3.11 or newer and, for some tests, a package manager that has Chromium and strace.
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
@@ -28,7 +28,7 @@ demo: .venv/.runtime ## validate, grade, rank and publish the submissions in thi
 dev: .venv/.dev ## make .venv with everything for development
 
 .PHONY: test
-test: .venv/.dev browser checker ## run all tests in parallel, with coverage (PYTEST_ARGS="-k name" adds arguments)
+test: .venv/.dev browser checker tracer ## run all tests in parallel, with coverage (PYTEST_ARGS="-k name" adds arguments)
 	@$(BIN)/python -m pytest --cov $(PYTEST_ARGS)
 
 .PHONY: campaign
@@ -37,7 +37,11 @@ campaign: .venv/.dev ## hours of hostile input, kills, failing disks and mutants
 
 .PHONY: browser
 browser: ## make sure that Chromium is there for the browser tests
-	@bash tools/install-browser.sh
+	@bash tools/install-program.sh chromium "nothing will open the built website"
+
+.PHONY: tracer
+tracer: ## make sure that strace is there for the test in which calls of the system fail
+	@bash tools/install-program.sh strace "no call of the system will be made to fail"
 
 .PHONY: checker
 checker: .venv/.made ## make sure that the HTML checker is there for its test
