@@ -2,6 +2,7 @@
 
 import datetime as dt
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -78,6 +79,14 @@ def build_reference(
         labels=labels,
         people=_simulate_people(labels, pairs, n_people, rng, responses) if n_people else None,
     )
+
+
+def shuffle_pairs(reference: Reference, seed: int) -> tuple[Reference, np.ndarray]:
+    """Number the pairs in another order; also give the new number of each, shape (n_pairs,)."""
+    place = np.random.default_rng(seed).permutation(len(reference.pair_ids))
+    names = np.array(reference.pair_ids)
+    names[place] = reference.pair_ids
+    return replace(reference, pairs=place[reference.pairs], pair_ids=tuple(names.tolist())), place
 
 
 def build_submission(

@@ -4,7 +4,8 @@ Run: python -m benchmarks.campaigns.mutants [PACKAGE ...] [--digits DIGITS]
 
 It needs mutmut, which turns `<` into `<=`, drops arguments, changes texts and so on, one at a time, and runs
 the tests that reach the place until one fails. It works on a copy of the repository. `--digits 37` tries only
-the mutants whose numbers end in 3 or 7, a fifth of them from all places. Survivors are named.
+the mutants whose numbers end in 3 or 7, a fifth of them from all places. What ran out of time, as it may on a
+busy machine, is tried once more. Survivors are named.
 """
 
 import argparse
@@ -51,10 +52,11 @@ settings.load_profile("mutants")
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a package's mutants; those that hang the tests are killed too."""
+    """What became of a package's mutants; those that hang the tests, ``n_hanging``, are killed too."""
 
     n_mutants: int
     n_killed: int
+    n_hanging: int
     survivors: tuple[str, ...]
 
     @property
@@ -85,23 +87,28 @@ def run(package: str, digits: str) -> Outcome:
         folder = Path(name) / "copy"
         shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(*LEFT_OUT))
         configure(folder, package)
-        mutmut = [sys.executable, "-m", "mutmut"]
-        patterns = [f"leaderboard.{package}.*__mutmut_*{digit}" for digit in digits]
-        done = subprocess.run([*mutmut, "run", "--max-children", "1", *patterns], cwd=folder, check=False)
-        listed = subprocess.run(
-            [*mutmut, "results", "--all", "true"], cwd=folder, capture_output=True, text=True, check=True
-        )
-    if done.returncode:
-        sys.exit(f"mutmut broke off in {package}")
-    return count(listed.stdout)
+        found = try_mutants(folder, [f"leaderboard.{package}.*__mutmut_*{digit}" for digit in digits])
+        late = [name for name, status in found.items() if status == "timeout"]
+        return count(try_mutants(folder, late) if late else found)
 
 
-def count(listing: str) -> Outcome:
-    """Count what mutmut lists as ``name: status``."""
-    found = re.findall(r"^\s*(\S+__mutmut_\d+): (.+)$", listing, re.MULTILINE)
-    killed = [name for name, status in found if status in {"killed", "timeout", "segfault"}]
-    survivors = [name for name, status in found if status in {"survived", "no tests", "suspicious"}]
-    return Outcome(len(found), len(killed), tuple(sorted(survivors)))
+def try_mutants(folder: Path, patterns: list[str]) -> dict[str, str]:
+    """Run some mutants, and say what became of all that were run so far."""
+    mutmut = [sys.executable, "-m", "mutmut"]
+    if subprocess.run([*mutmut, "run", "--max-children", "1", *patterns], cwd=folder, check=False).returncode:
+        sys.exit("mutmut broke off")
+    listed = subprocess.run(
+        [*mutmut, "results", "--all", "true"], cwd=folder, capture_output=True, text=True, check=True
+    )
+    return dict(re.findall(r"^\s*(\S+__mutmut_\d+): (.+)$", listed.stdout, re.MULTILINE))
+
+
+def count(found: dict[str, str]) -> Outcome:
+    """Count what mutmut says of each mutant."""
+    hanging = [name for name, status in found.items() if status == "timeout"]
+    killed = [name for name, status in found.items() if status in {"killed", "timeout", "segfault"}]
+    survivors = [name for name, status in found.items() if status in {"survived", "no tests", "suspicious"}]
+    return Outcome(len(found), len(killed), len(hanging), tuple(sorted(survivors)))
 
 
 def main() -> None:
@@ -113,11 +120,12 @@ def main() -> None:
     if importlib.util.find_spec("mutmut") is None:
         sys.exit("mutmut is not installed, so no mutant was tried: pip install -e '.[campaign]'")
     outcomes = {package: run(package, options.digits) for package in options.packages or TESTS}
-    print("| package | mutants | tried | killed | survived |\n|---|---:|---:|---:|---:|")
+    print("| package | mutants | tried | killed | hanging | survived |\n|---|---:|---:|---:|---:|---:|")
     for package, found in outcomes.items():
         n_tried = found.n_killed + len(found.survivors)
         share = f"{found.n_killed:,} ({found.share:.1%})"
-        print(f"| `{package}` | {found.n_mutants:,} | {n_tried:,} | {share} | {len(found.survivors):,} |")
+        hanging, survived = f"{found.n_hanging:,}", f"{len(found.survivors):,}"
+        print(f"| `{package}` | {found.n_mutants:,} | {n_tried:,} | {share} | {hanging} | {survived} |")
     for found in outcomes.values():
         print("".join(f"survived: {name}\n" for name in found.survivors), end="")
     sys.exit(0 if all(found.share >= LEAST_SHARE for found in outcomes.values()) else 1)

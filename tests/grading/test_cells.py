@@ -1,10 +1,10 @@
 """Cells: the trials of a score, seen through a submission and drawn with their property's pairs."""
 
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 
-from builders import build_reference, build_submission
+from builders import build_reference, build_submission, shuffle_pairs
 from leaderboard.grading import Yardstick
 from leaderboard.grading.draws import Draws
 from leaderboard.grading.observations import NOT_A_PROPERTY, Observations
@@ -59,10 +59,7 @@ def test_a_scenario_spans_its_own_pairs_and_a_property_all() -> None:
 
 def test_scattered_pairs_are_found_too() -> None:
     """Where the pairs of a property do not follow each other, their weights are copied."""
-    shuffled = np.random.default_rng(1).permutation(len(REFERENCE.pair_ids))
-    names = np.array(REFERENCE.pair_ids)
-    names[shuffled] = REFERENCE.pair_ids
-    scattered = replace(REFERENCE, pairs=shuffled[REFERENCE.pairs], pair_ids=tuple(names.tolist()))
+    scattered, _ = shuffle_pairs(REFERENCE, 1)
     draws = Draws.of(scattered)
     for cell in Yardstick(scattered, draws).list_cells(EVERYTHING):
         assert (cell.drawn.weights == draws.pairs[cell.drawn.rows]).all()

@@ -5,8 +5,9 @@ from itertools import product
 import numpy as np
 import pytest
 
-from builders import build_reference, build_submission
+from builders import build_reference, build_submission, shuffle_pairs
 from leaderboard.grading import Yardstick, grade, grade_people, tally_scores
+from leaderboard.grading.crossfitted import resample_people_crossfit
 from leaderboard.grading.draws import Draws
 from leaderboard.grading.observations import Observations
 from leaderboard.grading.panels import N_CROSSFIT_SPLITS
@@ -60,6 +61,18 @@ def test_drawing_every_pair_once_gives_the_values_and_people_are_not_drawn() -> 
     ):
         value = tally.estimates[scope][subset][metric]
         assert tally.resampled[scope, subset, metric] == pytest.approx(value, abs=2e-6)
+
+
+def test_resamples_of_people_do_not_depend_on_the_order_of_pairs() -> None:
+    """To the last bit, as those of submissions."""
+    yardstick = Yardstick.of(REFERENCE)
+    shuffled, place = shuffle_pairs(REFERENCE, 3)
+    other = Yardstick(shuffled, Draws(yardstick.draws.pairs[np.argsort(place)], yardstick.draws.people))
+    for plain, turned in zip(yardstick.list_cells(EVERYTHING), other.list_cells(EVERYTHING), strict=True):
+        crosses = yardstick.find_cross_cells(plain), other.find_cross_cells(turned)
+        assert len(crosses[0]) == (2 if plain.key in (("Alpha", "all"), ("Beta", "all")) else 0)
+        for mine, theirs in zip(*crosses, strict=True):
+            assert np.array_equal(resample_people_crossfit(mine), resample_people_crossfit(theirs))
 
 
 def test_without_single_responses_there_are_no_cross_fitted_subsets() -> None:

@@ -1,10 +1,13 @@
 """Lining up a submission with the reference, and keeping part of the trials."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from builders import build_reference, build_submission
 from leaderboard.grading.observations import Observations
+from leaderboard.metrics.undefined import Undefined
 
 REFERENCE = build_reference(3)
 RNG = np.random.default_rng(1)
@@ -59,6 +62,29 @@ def test_human_means_are_those_of_rated_trials() -> None:
     rated = WHOLE.n > 0
     assert WHOLE.rated.tolist() == rated.tolist()
     assert WHOLE.human_means == pytest.approx(WHOLE.n_yes[rated] / WHOLE.n[rated])
+
+
+def test_values_are_centred_on_rated_trials_and_scaled_to_one() -> None:
+    """By hand: of 0.2, 0.8 and 0.5 the mean is 0.5 and the largest distance 0.3; unrated trials are 0."""
+    o = replace(
+        WHOLE.select(np.arange(REFERENCE.n_trials) < 4),
+        n=np.array([3, 0, 1, 2]),
+        n_yes=np.array([3, 0, 0, 1]),
+    )
+    assert o.standardize(np.array([0.2, 0.9, 0.8, 0.5])) == pytest.approx([-1, 0, 1, 0], abs=1e-12)
+    assert o.standardize(np.full(4, 0.3)).tolist() == [0, 0, 0, 0]
+    assert o.gridded_means.tolist() == [1, 0, 0, 0.5]
+    assert o.scaled_means.tolist() == [1, 0, -1, 0]
+    unrated = replace(o, n=np.zeros(4, np.int64))
+    assert unrated.standardize(np.array([0.2, 0.9, 0.8, 0.5])).tolist() == [0, 0, 0, 0]
+
+
+def test_a_part_of_a_property_has_no_reliability() -> None:
+    """What was estimated for the whole is not true of some of its trials."""
+    whole = replace(WHOLE, reliability=0.9)
+    assert whole.select(MASK).reliability == Undefined(
+        "people's reliability is estimated for whole properties"
+    )
 
 
 def test_without_people_nothing_is_rated() -> None:

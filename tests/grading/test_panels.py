@@ -37,7 +37,7 @@ def test_reliability_is_from_halves_where_they_are_known_and_else_from_counts() 
     counts = find_panels(build_reference(6, n_people=16, responses=False))["Beta"]
     assert counts.split_half is None
     assert counts.crossfit is None
-    assert counts.people.size == 0
+    assert (counts.people.size, counts.sets.size) == (0, 0)
     assert counts.reliability is counts.from_counts
     mask = REFERENCE.in_property("Beta")
     assert REFERENCE.people is not None

@@ -7,7 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from leaderboard.metrics.agreement import answers_of, human_r, human_r_partial, human_rmse, mean_kappa
+from leaderboard.metrics.agreement import (
+    answers_of,
+    human_r,
+    human_r_normalized,
+    human_r_partial,
+    human_rmse,
+    mean_kappa,
+)
 from leaderboard.metrics.undefined import Undefined
 
 PEOPLE = np.array([0.1, 0.2, 0.4])
@@ -24,6 +31,18 @@ def test_human_r_is_one_for_people_themselves_and_minus_one_for_their_opposite()
     """A straight line up or down, with no digit beyond."""
     assert human_r(PEOPLE, PEOPLE) == 1
     assert human_r(1 - PEOPLE, PEOPLE) == pytest.approx(-1, abs=1e-15)
+
+
+def test_no_rounding_leads_beyond_a_straight_line() -> None:
+    """Up and down, with many digits or few."""
+    for seed in range(60):
+        people = np.random.default_rng(seed).random(9).round(1 + seed % 3)
+        up, down = human_r(0.1 + 0.7 * people, people), human_r(0.8 - 0.7 * people, people)
+        assert isinstance(up, float)
+        assert isinstance(down, float)
+        assert up == pytest.approx(1, abs=1e-12)
+        assert down == pytest.approx(-1, abs=1e-12)
+        assert -1 <= down < up <= 1
 
 
 @pytest.mark.parametrize(
@@ -99,10 +118,15 @@ def test_a_perfect_oracle_is_not_human_like_by_being_right(no: float, yes: float
     assert human_r_partial(oracle, oracle, labels) == expected
 
 
-def test_small_variation_apart_from_the_label_is_still_variation() -> None:
-    """An oracle that hedges by a trillionth says something beyond the label."""
-    model, people = np.array([1e-13, 2e-13, 1.0, 1.0]), np.array([0.1, 0.2, 0.4, 0.4])
-    assert human_r_partial(model, people, np.array([0, 0, 1, 1])) == pytest.approx(1, abs=1e-12)
+@pytest.mark.parametrize("labels", [[0, 0, 1, 1], [1, 1, 0, 0], [0, 1, 0, 1], [1, 0, 1, 0]], ids=str)
+@pytest.mark.parametrize("step", [1e-13, 1e-200, 5e-324])
+def test_small_variation_apart_from_the_label_is_still_variation(labels: list[int], step: float) -> None:
+    """An oracle that hedges by a trillionth, or far less, says something beyond the label."""
+    groups = np.array(labels)
+    for label in (0, 1):
+        model, people = np.full(4, 1.0), np.full(4, 0.4)
+        model[groups == label], people[groups == label] = (step, 2 * step), (0.1, 0.2)
+        assert human_r_partial(model, people, groups) == pytest.approx(1, abs=1e-12)
 
 
 def test_partial_correlation_gives_the_reasons_of_the_plain_one() -> None:
@@ -110,6 +134,16 @@ def test_partial_correlation_gives_the_reasons_of_the_plain_one() -> None:
     labels, varying, constant = np.array([0, 1, 1]), PEOPLE, np.full(3, 0.2)
     assert human_r_partial(constant, varying, labels) == Undefined("all probabilities are equal")
     assert human_r_partial(varying, constant, labels) == Undefined("all human means are equal")
+
+
+def test_the_ceiling_divides_r_where_there_is_one() -> None:
+    """By its root, above 1 too; none where the reliability is 0 or less, and r's own reason comes first."""
+    assert human_r_normalized(0.6, 0.25) == 1.2
+    assert human_r_normalized(-0.5, 2.0**-1074) == -(2.0**536)
+    not_reliable = Undefined("people agree no more than chance would have it, so there is no ceiling")
+    assert human_r_normalized(0.6, 0.0) == human_r_normalized(0.6, -0.5) == not_reliable
+    assert human_r_normalized(0.6, Undefined("b")) == Undefined("b")
+    assert human_r_normalized(Undefined("a"), Undefined("b")) == Undefined("a")
 
 
 def test_human_rmse_of_a_case_by_hand() -> None:

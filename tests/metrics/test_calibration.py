@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from leaderboard.metrics.calibration import auc, brier, count_outranked, ece, yes_rate
+from leaderboard.metrics.calibration import auc, brier, count_outranked, ece, human_ece, yes_rate
 from leaderboard.metrics.undefined import Undefined
 
 NOTHING = np.array([])
@@ -101,6 +101,7 @@ def test_without_trials_nothing_is_defined() -> None:
     assert brier(NOTHING, NO_LABELS) == NO_TRIALS
     assert ece(NOTHING, NO_LABELS) == NO_TRIALS
     assert yes_rate(NOTHING) == NO_TRIALS
+    assert human_ece(NOTHING, NOTHING) == Undefined("nobody rated these trials")
 
 
 TRIAL_LISTS = st.lists(st.tuples(st.sampled_from([0.0, 0.2, 0.5, 0.6, 1.0]), st.integers(0, 1)), max_size=12)

@@ -20,9 +20,10 @@ from leaderboard.metrics.crossfit import (
     human_accuracy_on,
     human_r_on,
 )
-from leaderboard.metrics.splits import Halves, Tables, count_halves, split_people
+from leaderboard.metrics.splits import BATCH, Halves, Tables, count_halves, split_people
 from leaderboard.metrics.undefined import Undefined
 
+Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 EASY, HARD = Fraction(2, 3), Fraction(1, 3)
@@ -39,11 +40,14 @@ class Case:
     pairs: list[int]
     predicted: list[float]
 
-    def cross_fit(self) -> CrossFit:
+    def halves(self) -> Halves:
         persons, trials = (np.array([key[k] for key in self.answers], np.int64) for k in (0, 1))
         answers = np.array(list(self.answers.values()), np.int64)
-        halves = count_halves(np.array(self.splits), persons, trials, answers, len(self.labels))
-        return cross_fit(halves, np.array(self.labels), np.array(self.pairs), easy=EASY, hard=HARD)
+        return count_halves(np.array(self.splits), persons, trials, answers, len(self.labels))
+
+    def cross_fit(self) -> CrossFit:
+        labels, pairs = np.array(self.labels), np.array(self.pairs)
+        return cross_fit(self.halves(), labels, pairs, easy=EASY, hard=HARD)
 
 
 @st.composite
@@ -202,6 +206,43 @@ def test_a_share_on_the_bound_is_on_neither_side() -> None:
     assert not labels_swapped.cross_fit().easy.chosen.any()
 
 
+@pytest.mark.parametrize(("n_right", "is_hard"), [(1, True), (2, False), (3, False)])
+def test_bounds_may_be_any_fractions(n_right: int, is_hard: bool) -> None:
+    """With hard below 2/5, one of five is hard, and two of five are not."""
+    answers = {(person, 0): int(person % 5 < n_right) for person in range(10)}
+    case = Case(answers, [[True] * 5 + [False] * 5], [1], [0], [0.5])
+    halves = case.halves()
+    labels, pairs = np.array([1]), np.array([0])
+    found = cross_fit(halves, labels, pairs, easy=Fraction(4, 5), hard=Fraction(2, 5))
+    assert found.hard.chosen.tolist() == [is_hard]
+    assert not found.easy.chosen.any()
+
+
+def test_many_splits_are_all_counted() -> None:
+    """They are gone through in batches, of which every one counts as much as it has splits."""
+    rng = np.random.default_rng(4)
+    n_people, n_trials, n_splits = 9, 8, 2 * BATCH + 50
+    answers = {
+        (person, trial): int(rng.random() < 0.5) for person in range(n_people) for trial in range(n_trials)
+    }
+    splits = split_people(np.zeros(n_people, np.int64), n_splits, seed=1, stream=0).tolist()
+    labels, pairs = rng.integers(0, 2, n_trials).tolist(), [trial // 2 for trial in range(n_trials)]
+    case = Case(answers, splits, labels, pairs, [0.5] * n_trials)
+    ends = [0, 100, 220, n_splits]
+    parts = [Case(answers, splits[a:b], labels, pairs, case.predicted) for a, b in itertools.pairwise(ends)]
+    sizes, found = np.diff(ends), [part.cross_fit() for part in parts]
+    whole = case.cross_fit()
+    both = np.average([part.n_pairs_in_both for part in found], weights=sizes)
+    assert whole.n_pairs_in_both == pytest.approx(both)
+    for name in ("chosen", "rated", "mean_sum", "square_sum", "right_sum", "n_trials", "n_pairs"):
+        easy, hard = (
+            np.average([getattr(p, name) for p in of], axis=0, weights=sizes)
+            for of in ([part.easy for part in found], [part.hard for part in found])
+        )
+        assert getattr(whole.easy, name) == pytest.approx(easy)
+        assert getattr(whole.hard, name) == pytest.approx(hard)
+
+
 def test_one_member_brings_in_the_other_even_unrated() -> None:
     """The pair is chosen, but what nobody judged is not measured."""
     found = Case({(0, 0): 1, (1, 0): 1}, [[True, False]], [1, 1], [0, 0], [0.5, 0.5]).cross_fit()
@@ -236,6 +277,32 @@ def test_undefined_says_why() -> None:
     flat = subset_of([1.0, 1.0], [1.0, 1.0], [third, third], [third**2, third**2])
     assert human_r_on(flat, q) == Undefined("all human means are equal")
     assert human_r_on(flat, np.array([0.3, 0.3])) == Undefined("all probabilities are equal")
+
+
+def weigh_equally(means: Floats) -> CrossSubset:
+    """Choose and rate every trial in every case, with these shares of YES."""
+    ones = np.ones(means.size)
+    return CrossSubset(ones, ones, means, means**2, means, float(means.size), 0.0)
+
+
+def test_a_straight_line_has_a_correlation_of_one_and_no_digit_more() -> None:
+    """Up and down, whatever the shares: sums of squares that are rounded do not lead beyond."""
+    for seed in range(60):
+        means = np.random.default_rng(seed).permutation(np.arange(8)) / 7
+        up, down = (human_r_on(weigh_equally(means), q) for q in (means, 1 - means))
+        assert isinstance(up, float)
+        assert isinstance(down, float)
+        assert up == pytest.approx(1, abs=1e-12)
+        assert down == pytest.approx(-1, abs=1e-12)
+        assert -1 <= down < up <= 1
+
+
+def test_the_smallest_difference_is_a_difference() -> None:
+    """Deviations (-1, -1, 2) and (-4, -1, 5), however small the step of the probabilities."""
+    subset = weigh_equally(np.array([0.1, 0.2, 0.4]))
+    for low, high in ((0.0, 5e-324), (0.0, 1e-200), (0.5, math.nextafter(0.5, 1)), (0.0, 1.0)):
+        found = human_r_on(subset, np.array([low, low, high]))
+        assert found == pytest.approx(15 / math.sqrt(6 * 42), abs=1e-9)
 
 
 def test_people_who_are_equally_good_everywhere_are_so_on_easy_and_hard() -> None:

@@ -44,6 +44,18 @@ def test_perfect_agreement_cannot_rise() -> None:
     assert correlation_slopes(values, 2 * values, np.zeros(3, np.int64)) == pytest.approx(0, abs=1e-12)
 
 
+@pytest.mark.parametrize("label", [0, 1])
+def test_one_trial_of_a_label_is_its_own_mean(label: int) -> None:
+    """Nothing is left of it, so moving it moves nothing; the others move the partial r as they should."""
+    rng = np.random.default_rng(3)
+    predicted, observed, labels = rng.random(6), rng.random(6), np.full(6, 1 - label)
+    labels[2] = label
+    slopes = correlation_slopes(predicted, observed, labels)
+    expected = derive(lambda h: float(human_r_partial(predicted, h, labels)), observed)  # type: ignore[arg-type]
+    assert slopes == pytest.approx(expected, abs=1e-6)
+    assert slopes[2] == pytest.approx(0, abs=1e-12)
+
+
 @given(SEEDS)
 def test_weighing_a_person_moves_human_means_and_so_the_metric(seed: int) -> None:
     """The chain rule from people's weights to human means to any function of them."""
@@ -112,6 +124,52 @@ def test_kappa_moves_with_trials_and_people_as_its_influences_say(seed: int) -> 
         assert np.abs(by_person).max() <= np.abs(expected).max() + 1e-5
     assert by_trial.sum() == pytest.approx(0, abs=1e-12)
     assert by_person.sum() == pytest.approx(0, abs=1e-12)
+
+
+def test_influences_on_kappa_of_a_case_by_hand() -> None:
+    """Kappas 1 and -1 on two trials, of which the model has 1 on one: each person moves their mean by 1/2.
+
+    With weights v and w of a person's two responses, agreement is 1 or 0 at any weights, and so is kappa:
+    no response moves anything, and nothing is left out of the sums over people.
+    """
+    trials, persons, values = np.array([0, 1, 0, 1]), np.array([0, 0, 1, 1]), np.array([1, 0, 0, 1])
+    by_trial, by_person = kappa_influences(np.array([1.0, 0.0]), (trials, persons, values))
+    assert by_person.tolist() == [0.5, -0.5]
+    assert by_trial.tolist() == [0, 0]
+
+
+def test_a_half_value_beside_two_zeros_has_a_kappa() -> None:
+    """Values (1/2, 0) against (0, 0): agreement 3/4 and chance 3/4 give 0, beside another person's 1.
+
+    Weights v of the first person's responses give no other kappa than 0, since chance is 1 - p1 as is
+    agreement; each person moves the mean by 1/4.
+    """
+    trials, persons, values = np.array([0, 1, 2, 3]), np.array([0, 0, 1, 1]), np.array([0, 0, 1, 0])
+    by_trial, by_person = kappa_influences(np.array([0.5, 0.0, 1.0, 0.0]), (trials, persons, values))
+    assert by_person.tolist() == [-0.25, 0.25]
+    assert by_trial == pytest.approx(0, abs=1e-15)
+
+
+@pytest.mark.parametrize("n_people", [1, 2, 5])
+def test_people_who_are_left_out_change_nothing_for_the_others(n_people: int) -> None:
+    """One with a single trial and one for whom chance is 1 are as if they were not there."""
+    rng = np.random.default_rng(n_people)
+    predicted = np.concatenate([rng.permutation([0.0, 0.5, 1.0, 1.0, 0.0, 1.0]), [1.0, 1.0]])
+    persons, trials = np.repeat(np.arange(n_people), 6), np.tile(np.arange(6), n_people)
+    values = rng.integers(0, 2, persons.size)
+    by_trial, by_person = kappa_influences(predicted, (trials, persons, values))
+    expected = derive(
+        lambda w: weigh_kappas(predicted, (trials, persons, values), w, np.ones(n_people)), np.ones(8)
+    )
+    assert by_trial == pytest.approx(expected, abs=1e-5)
+    more = (
+        np.concatenate([trials, [0, 6, 7]]),
+        np.concatenate([persons, n_people + np.array([0, 1, 1])]),
+        np.concatenate([values, [1, 1, 1]]),
+    )
+    with_more = kappa_influences(predicted, more)
+    assert with_more[0].tolist() == by_trial.tolist()
+    assert with_more[1].tolist() == [*by_person.tolist(), 0, 0]
 
 
 def test_people_without_a_kappa_have_no_influence() -> None:

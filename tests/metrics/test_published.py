@@ -1,6 +1,7 @@
 """Arithmetic on printed numbers, against hand-made cases, SciPy and enumeration."""
 
 from fractions import Fraction
+from math import comb
 
 import pytest
 from hypothesis import given
@@ -137,6 +138,15 @@ def test_wilson_interval_lies_in_the_unit_interval(share: tuple[int, int]) -> No
     assert wilson_interval(1 - k / n, n) == pytest.approx((1 - high, 1 - low), abs=1e-12)
 
 
+def test_all_or_none_have_an_end_at_one_or_zero() -> None:
+    """However it is rounded, the interval of a share of 1 ends there, and that of 0 begins there."""
+    for n in range(1, 500):
+        assert wilson_interval(1.0, n)[1] <= 1
+        assert wilson_interval(0.0, n)[0] >= 0
+        assert wilson_interval(1.0, n)[1] == pytest.approx(1, abs=1e-12)
+        assert wilson_interval(0.0, n)[0] == pytest.approx(0, abs=1e-12)
+
+
 @given(counts_of_trials)
 def test_chance_p_is_that_of_scipy(share: tuple[int, int]) -> None:
     """The exact two-sided binomial test against one half."""
@@ -148,3 +158,5 @@ def test_chance_p_is_exact_far_out() -> None:
     """All of 768 right has 2 of 2^768 patterns; no float overflows on the way."""
     assert chance_p(768, 768) == chance_p(0, 768) == 2.0**-767
     assert chance_p(50_000, 100_000) == 1
+    exact = Fraction(2 * sum(comb(2000, k) for k in range(901)), 2**2000)
+    assert chance_p(900, 2000) == chance_p(1100, 2000) == float(exact)

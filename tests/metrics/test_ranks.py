@@ -183,6 +183,26 @@ def test_a_difference_that_is_the_same_on_every_pair_of_a_stratum_is_significant
     assert rank_sets(np.array([rival, better]), STRATA, WEIGHTS).tolist() == [[2, 2], [1, 1]]
 
 
+@pytest.mark.parametrize("step", [1, 1001])
+def test_one_more_on_a_pair_that_is_always_drawn_is_significant(step: int) -> None:
+    """A stratum of one pair has no error, however small the difference on it."""
+    strata = np.array([0] * 11 + [1])
+    weights = draw_weights(strata, 200, seed=5, stream=0).astype(np.float64)
+    rival = np.array([3, 7, 1, 5, 2, 9, 4, 6, 8, 1, 0, 2])
+    better = rival + step * (strata == 1)
+    for shares, sets in (([rival, better], [[2, 2], [1, 1]]), ([better, rival], [[1, 1], [2, 2]])):
+        assert rank_sets(np.array(shares), strata, weights).tolist() == sets
+    other = np.append(rival[10::-1], rival[11])  # as good as the rival, and far from it on most pairs
+    found = rank_sets(np.array([rival, better, other]), strata, weights).tolist()
+    assert found[:2] == [[2, 3], [1, 2]] if step == 1 else [[2, 3], [1, 1]]
+
+
+def test_without_systems_or_pairs_there_are_no_scores() -> None:
+    """An empty board is no error."""
+    assert resample_scores(np.zeros((0, 12), np.int64), WEIGHTS).shape == (0, 200)
+    assert resample_scores(np.zeros((2, 0), np.int64), np.zeros((5, 0))).tolist() == [[0] * 5] * 2
+
+
 def test_equal_scores_without_error_are_not_significant() -> None:
     """1 more on each pair of one stratum, 1 less on each of another of the same size: nobody is better."""
     strata = np.repeat([0, 1], 6)
@@ -219,3 +239,14 @@ def test_many_systems_use_the_first_thousand_resamples() -> None:
     fewer = rank_sets(shares, STRATA, weights[:1000])
     assert (rank_sets(shares, STRATA, weights) == fewer).all()
     assert (rank_sets(shares, STRATA, others) == fewer).all()
+
+
+def test_a_hundred_systems_use_every_resample() -> None:
+    """What comes after the first 1,000 resamples counts, up to 60,000 of them."""
+    rng = np.random.default_rng(1)
+    shares = np.unique(rng.binomial(2, np.linspace(0.2, 0.8, 100)[:, None], (100, 12)), axis=0)
+    resampled = resample_scores(shares, draw_weights(STRATA, 1000, seed=1, stream=0))
+    still = np.repeat(shares.sum(axis=1)[:, None], 40_000, axis=1).astype(resampled.dtype)
+    narrow = find_rank_sets(shares, STRATA, np.hstack([resampled, still]))
+    wide = find_rank_sets(shares, STRATA, resampled)
+    assert (wide[:, 1] - wide[:, 0]).mean() > 3 * (narrow[:, 1] - narrow[:, 0]).mean()

@@ -210,6 +210,31 @@ def test_counts_by_hand() -> None:
     assert found.value == pytest.approx(1 - (1 / 36) / (1 / 4))
 
 
+def test_two_trials_of_two_people_are_enough() -> None:
+    """Shares 1/4 and 3/4 of four each: noise (1/16 + 1/16) / 2, variance 1/8; beside one that is left out."""
+    assert count_reliability(np.array([4, 4]), np.array([1, 3])).value == pytest.approx(0.5)
+    assert count_reliability(np.array([4, 1, 4]), np.array([1, 1, 3])).value == pytest.approx(0.5)
+    pair = count_reliability(np.array([2, 2]), np.array([0, 1]))  # shares 0, 1/2: noise 1/8, variance 1/8
+    assert pair.value == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("n_yes", [[0, 1], [1, 1]], ids=["too few trials", "no variance"])
+def test_without_value_nothing_moves_it_for_as_many_people_as_there_are(n_yes: list[int]) -> None:
+    """A number for each person who is known and none where single responses are unknown."""
+    said_yes = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])[:, n_yes]
+    tables = Tables(np.ones((3, 2)), said_yes)
+    n = np.array([3, 1] if n_yes == [0, 1] else [3, 3])
+    with_people, alone = (
+        count_reliability(n, np.array([1, 1]), tables),
+        count_reliability(n, np.array([1, 1])),
+    )
+    assert isinstance(with_people.value, Undefined)
+    assert with_people.value == alone.value
+    assert with_people.person_influence.tolist() == [0, 0, 0]
+    assert with_people.response_influence.shape == (3, 2)
+    assert alone.response_influence.shape == (0, 2)
+
+
 def test_trials_of_fewer_than_two_people_are_no_part_of_counts() -> None:
     """One answer tells nothing of the noise of answers."""
     found = count_reliability(np.array([4, 1, 4, 0, 4]), np.array([0, 1, 2, 0, 4]))
@@ -226,17 +251,19 @@ def test_counts_without_value_say_why() -> None:
     assert constant.trial_influence.tolist() == [0, 0, 0]
 
 
-def test_people_without_variance_have_no_split_half_r() -> None:
+@pytest.mark.parametrize("n_trials", [2, 5, 9, 14, 49, 101])
+@pytest.mark.parametrize("n_half", [3, 7, 11])
+def test_people_without_variance_have_no_split_half_r(n_half: int, n_trials: int) -> None:
     """Thirds that are equal are equal however they are rounded; the splits are counted."""
-    persons, trials = (grid.ravel() for grid in np.mgrid[:6, :5])
-    answers = (persons % 3 == 0).astype(np.int64)
-    is_first = np.array([[True, True, True, False, False, False]] * 3)
-    found = split_half_reliability(count_halves(is_first, persons, trials, answers, 5))
+    persons, trials = (grid.ravel() for grid in np.mgrid[: 2 * n_half, :n_trials])
+    answers = (persons % n_half == 0).astype(np.int64)
+    is_first = np.array([[True] * n_half + [False] * n_half] * 3)
+    found = split_half_reliability(count_halves(is_first, persons, trials, answers, n_trials))
     assert isinstance(found.split_half_r.value, Undefined)
     assert isinstance(found.reliability.value, Undefined)
     assert found.n_undefined == 3
     assert not found.reliability.trial_influence.any()
-    assert found.reliability.person_influence.tolist() == [0] * 6
+    assert found.reliability.person_influence.tolist() == [0] * 2 * n_half
 
 
 def test_nobody_has_no_split_half_r() -> None:

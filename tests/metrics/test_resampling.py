@@ -26,6 +26,24 @@ def test_the_first_draws_are_these_for_ever() -> None:
     assert draw_weights(STRATA, 4, seed=20231105, stream=1).tolist() != FIRST
 
 
+@pytest.mark.parametrize("n_resamples", [1, 2, 3, 1001, 2500])
+@pytest.mark.parametrize("strata", [[0, 0, 0, 1, 1], [2, 7, 2, 7, 7, 2, 2], [1, 0, 0, 1, 3]], ids=str)
+def test_strata_take_their_numbers_one_after_the_other(strata: list[int], n_resamples: int) -> None:
+    """In ascending order, each as many raw numbers as it needs; half of one that is left over is dropped."""
+    bits = np.random.PCG64(np.random.SeedSequence([7, 3]))
+    expected = [[0] * len(strata) for _ in range(n_resamples)]
+    for stratum in sorted(set(strata)):
+        units = [unit for unit, number in enumerate(strata) if number == stratum]
+        size = len(units) * n_resamples
+        raw = bits.random_raw((size + 1) // 2).tolist()
+        numbers = [part for value in raw for part in (value & 0xFFFFFFFF, value >> 32)][:size]
+        for position, number in enumerate(numbers):
+            expected[position // len(units)][units[(number * len(units)) >> 32]] += 1
+    weights = draw_weights(np.array(strata), n_resamples, seed=7, stream=3)
+    assert weights.tolist() == expected
+    assert weights.dtype == np.uint16
+
+
 def test_draws_follow_from_the_published_stream_of_pcg64() -> None:
     """The weights are counts of the high bits of raw numbers, computed here one by one."""
     raw = np.random.PCG64(np.random.SeedSequence([7, 3])).random_raw(6)
@@ -60,7 +78,8 @@ def test_interval_is_of_the_defined_resamples_and_counts_the_others() -> None:
     """NaN is neither dropped silently nor passed on."""
     resampled = np.concatenate([np.arange(41.0), [np.nan, np.nan]])
     assert percentile_interval(3.0, resampled) == Interval(3.0, 1.0, 39.0, 2)
-    assert percentile_interval(3.0, np.full(5, np.nan)) == Undefined("it has no value in any resample")
+    for nowhere in (np.full(5, np.nan), np.array([])):
+        assert percentile_interval(3.0, nowhere) == Undefined("it has no value in any resample")
 
 
 @given(
@@ -106,6 +125,7 @@ def test_sums_on_a_grid_do_not_depend_on_their_order(values: list[float], order:
     """Products of two numbers on the grid, weighted by whole numbers, add up exactly in any order."""
     gridded = on_grid(np.array(values))
     assert np.abs(gridded - values).max() <= 2.0**-21
+    assert (gridded * 2**20 == np.rint(gridded * 2**20)).all()
     terms = gridded * gridded[::-1] * np.arange(1, gridded.size + 1)
     shuffled = terms[[i for i in order if i < terms.size]]
     assert math.fsum(terms) == np.sum(terms) == np.sum(shuffled)

@@ -22,8 +22,9 @@ def every_order(n_ones: int, n_zeros: int) -> Iterator[list[int]]:
 @given(st.lists(st.integers(0, 1), max_size=40))
 def test_runs_are_the_stretches_of_equal_answers(answers: list[int]) -> None:
     """Their lengths stand in the order of the answers and add up to their number."""
-    lengths = measure_runs(np.array(answers, np.int64)).tolist()
-    assert lengths == [len(list(run)) for _, run in groupby(answers)]
+    lengths = measure_runs(np.array(answers, np.int64))
+    assert lengths.tolist() == [len(list(run)) for _, run in groupby(answers)]
+    assert lengths.dtype == np.int64
 
 
 @pytest.mark.parametrize(("n_ones", "n_zeros"), COUNTS)
