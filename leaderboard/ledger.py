@@ -159,7 +159,8 @@ def _parse_line(text: str, number: int, file: str, problems: Problems) -> Ledger
         problems.add("ledger-malformed", f"malformed CSV: {error}", file, line=number)
         return None
     if len(cells) != len(HEADER):
-        message = f"has {len(cells)} cells, not {len(HEADER)}" if text else "is blank"
+        n_cells = f"{len(cells)} cell{'' if len(cells) == 1 else 's'}"
+        message = f"has {n_cells}, not {len(HEADER)}" if text else "is blank"
         problems.add("ledger-malformed", f"the line {message}", file, line=number)
         return None
     line = _build_line(dict(zip(HEADER, cells, strict=True)), number, file, problems)

@@ -21,11 +21,20 @@ def repo_root() -> Path:
     return Path(__file__).resolve().parent.parent
 
 
+@pytest.fixture
+def is_accepting() -> bool:
+    """Whether ACCEPT=1 asks to write expected files anew, for a person to read the difference."""
+    asks = bool(os.environ.get("ACCEPT"))
+    if asks and os.environ.get("CI"):
+        pytest.fail("ACCEPT=1 writes expected files anew, and CI is set: nobody would read the difference")
+    return asks
+
+
 @pytest.fixture(scope="session")
 def shared_dir(repo_root: Path) -> Path:
     """The folder `shared` beside the repository, with the predecessor's real data.
 
-    Without it the test skips; where REQUIRE_SHARED is set (CI), it fails.
+    Without it the test skips; where REQUIRE_SHARED is set, as in .ci/run, it fails.
     """
     folder = repo_root.parent / "shared"
     if folder.is_dir():

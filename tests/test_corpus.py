@@ -102,15 +102,23 @@ def judge(example: Path, tmp_path: Path) -> tuple[Validation, str]:
     return validation, f"{render_problems(validation.problems, 'text')}{verdict}\n"
 
 
+def test_nothing_is_accepted_in_ci(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
+    """There ACCEPT=1 would turn every failure into a new expectation that nobody reads."""
+    monkeypatch.setenv("ACCEPT", "1")
+    monkeypatch.setenv("CI", "true")
+    with pytest.raises(pytest.fail.Exception, match=r"^ACCEPT=1 writes expected files anew, and CI is set: "):
+        request.getfixturevalue("is_accepting")
+
+
 def name_example(example: Path) -> str:
     return example.relative_to(CORPUS).as_posix()
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=name_example)
-def test_example_gets_the_expected_text(example: Path, tmp_path: Path) -> None:
+def test_example_gets_the_expected_text(example: Path, tmp_path: Path, is_accepting: bool) -> None:
     """The text is the expected one, to the letter, and the code of the example's folder is in it."""
     validation, text = judge(example, tmp_path)
-    if os.environ.get("ACCEPT"):
+    if is_accepting:
         (example / "expected.txt").write_text(text)
     assert text == (example / "expected.txt").read_text()
     codes = [problem.code for problem in validation.problems]

@@ -172,7 +172,7 @@ def test_withdrawn_submissions_leave_the_board(instance: Instance) -> None:
 def test_a_broken_ledger_publishes_nothing(instance: Instance) -> None:
     """Nobody knows then what left the board."""
     instance.ledger_file.write_text(HEAD + "x\n")
-    with pytest.raises(InstanceError, match=r"^submissions/ledger\.csv:2: the line has 1 cells, not 5$"):
+    with pytest.raises(InstanceError, match=r"^submissions/ledger\.csv:2: the line has 1 cell, not 5$"):
         published_dirs(instance)
 
 

@@ -1,5 +1,6 @@
 """``leaderboard readout``."""
 
+import shlex
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -179,5 +180,5 @@ def _finish(
     click.echo(render_account(readout), err=True, nl=False)
     for name in contents:
         click.echo(f"wrote {output / name}")
-    files = f"{output / PREDICTIONS} --metadata {output / METADATA_FILE}"
+    files = shlex.join([str(output / PREDICTIONS), "--metadata", str(output / METADATA_FILE)])
     click.echo(f"  next: leaderboard submit {files} ...", err=True)

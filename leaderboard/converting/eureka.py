@@ -38,6 +38,8 @@ def _read_answers(file: Path, options: Options) -> Iterator[Answer]:
 
 def _read_output(record: Record) -> Reading:
     is_valid = record.find("is_valid")
+    if is_valid is None:
+        raise record.error("lacks is_valid, which says whether the model gave an output")
     if not isinstance(is_valid, bool):
         raise record.error(f"is_valid is {quote(repr(is_valid))}, neither true nor false")
     return parse_answer(record.require_text("model_output")) if is_valid else Reading.ERROR

@@ -9,6 +9,7 @@ from leaderboard.converting.json_logs import as_record, read_json
 from leaderboard.converting.log import Answer, Run, name_run
 from leaderboard.converting.record_files import list_records
 from leaderboard.converting.records import Options, Record, make_answer, name_trial, parse_target
+from leaderboard.errors import SourceError
 from leaderboard.reference.cells import quote
 
 _STATUSES = ("correct", "wrong_answer", "parse_error", "request_error")
@@ -28,7 +29,9 @@ def read_runs(files: Sequence[Path], options: Options) -> list[Run]:
 
 def _read_answers(file: Path, options: Options) -> Iterator[Answer]:
     content = read_json(file)
-    scenes = content.get("predictions") if isinstance(content, dict) else content
+    if isinstance(content, dict) and "predictions" not in content:
+        raise SourceError(f"{file}: has no predictions, so it is no run of PhysMind")
+    scenes = content["predictions"] if isinstance(content, dict) else content
     for scene in list_records(scenes, str(file), unit="scene"):
         questions = scene.find_items("questions")
         if len(questions) != 1:

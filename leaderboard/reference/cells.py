@@ -142,6 +142,7 @@ def _is_regular(rows: list[list[str]], n_lines: int, width: int, file: str, prob
             problems.add("reference-malformed", "a cell runs over several lines", file, line=line)
             break
         if len(row) != width:
-            message = f"has {len(row)} cells, not {width}" if row else "is blank"
+            n_cells = f"{len(row)} cell{'' if len(row) == 1 else 's'}"
+            message = f"has {n_cells}, not {width}" if row else "is blank"
             problems.add("reference-malformed", f"the line {message}", file, line=line)
     return False

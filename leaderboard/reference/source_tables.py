@@ -134,5 +134,6 @@ def _make_row(header: Sequence[str], cells: Sequence[str], file: str, line: int)
     if not cells:
         raise SourceError(f"{file}:{line}: the line is blank")
     if len(cells) != len(header):
-        raise SourceError(f"{file}:{line}: has {len(cells)} cells where the header has {len(header)}")
+        n_cells = f"{len(cells)} cell{'' if len(cells) == 1 else 's'}"
+        raise SourceError(f"{file}:{line}: has {n_cells} where the header has {len(header)}")
     return SourceRow(file, line, dict(zip(header, cells, strict=True)))

@@ -56,7 +56,7 @@ def read_contents(folder: Path) -> dict[str, bytes]:
 def test_features_reach_the_board(run: Run, root: Path, tmp_path: Path, suffix: str) -> None:
     """Features of every kind of file go through readout, submit and grade; the metadata say how."""
     arguments = write_features(root, tmp_path, suffix, signal=30.0, n_features=2)
-    out = tmp_path / "out"
+    out = tmp_path / "my out"
     done = run("readout", "fit", *arguments, "-o", out)
     assert done.stdout.splitlines() == [
         f"wrote {out}/{name}"
@@ -64,7 +64,8 @@ def test_features_reach_the_board(run: Run, root: Path, tmp_path: Path, suffix: 
     ]
     assert "Tiny: logistic regression, one per property, 1 seed" in done.stderr
     files = [out / "predictions.csv", "--metadata", out / "metadata.toml"]
-    assert f"next: leaderboard submit {' '.join(map(str, files))} ...\n" in done.stderr
+    names = f"'{out}/predictions.csv' --metadata '{out}/metadata.toml'"
+    assert f"next: leaderboard submit {names} ...\n" in done.stderr
     run("submit", *files, *SUBMIT)
     assert 'selection = "readout"' in (root / "submissions/my-model/submission.toml").read_text()
     result = json.loads(run("grade", "--json", "--check", root / "submissions/my-model").stdout)

@@ -3,6 +3,7 @@
 import json
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -170,7 +171,7 @@ class TestAnswers:
             ("a.json", '{"id": "a"}', "a.json: holds an object where a list of records should be"),
             ("a.json", "[]", "a.json: has no records"),
             ("a.csv", "id,answer\n", "a.csv: holds a header but no rows"),
-            ("a.csv", "id,answer\na\n", "a.csv:2: has 1 cells where the header has 2"),
+            ("a.csv", "id,answer\na\n", "a.csv:2: has 1 cell where the header has 2"),
             ("a.xlsx", "PK", "a.xlsx: is none of .jsonl, .ndjson, .json, .csv, .tsv, to judge by its name"),
         ],
     )
@@ -289,6 +290,19 @@ class TestPhysmind:
     def test_other_scenes_are_refused(self, tmp_path: Path, change: dict[str, Any], message: str) -> None:
         """The message names the scene by its number."""
         file = self.write(tmp_path, physmind_scene(0, said()) | change)
+        assert refusal(lambda: read("physmind", file), tmp_path)[0] == message
+
+    @pytest.mark.parametrize(
+        ("content", "message"),
+        [
+            ({"schema_version": 1}, "run.json: has no predictions, so it is no run of PhysMind"),
+            ({"predictions": None}, "run.json: holds null where a list of scenes should be"),
+            ("yes", "run.json: holds a text where a list of scenes should be"),
+        ],
+    )
+    def test_files_without_scenes_are_refused(self, tmp_path: Path, content: object, message: str) -> None:
+        """What is not there is not called null."""
+        file = write_text(tmp_path, "run.json", json.dumps(content))
         assert refusal(lambda: read("physmind", file), tmp_path)[0] == message
 
 
@@ -485,10 +499,16 @@ class TestOtherFormats:
         assert refusal(lambda: read("vlmevalkit", file), tmp_path)[1] == "save the sheet as CSV"
 
     def test_validity_of_eureka_is_needed(self, tmp_path: Path) -> None:
-        """A result without is_valid is no result."""
-        file = write_lines(tmp_path / "r.jsonl", [{"stimulus_id": TRIAL, "model_output": "yes"}])
-        message, _ = refusal(lambda: read("eureka", file), tmp_path)
-        assert message == "r.jsonl:1: is_valid is 'None', neither true nor false"
+        """A result without is_valid is no result, nor is one in which it is a word."""
+        for given, expected in (
+            ({}, "lacks is_valid, which says whether the model gave an output"),
+            ({"is_valid": None}, "lacks is_valid, which says whether the model gave an output"),
+            ({"is_valid": "yes"}, "is_valid is \"'yes'\", neither true nor false"),
+        ):
+            result = {"stimulus_id": TRIAL, "model_output": "yes"} | given
+            file = write_lines(tmp_path / "r.jsonl", [result])
+            message, _ = refusal(partial(read, "eureka", file), tmp_path)
+            assert message == f"r.jsonl:1: {expected}"
 
     def test_reviews_are_named_by_metadata_or_map(self, tmp_path: Path) -> None:
         """Without metadata, the group of a sample's repeats or its index is looked up in a map."""

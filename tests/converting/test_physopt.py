@@ -319,6 +319,7 @@ def test_real_runs_trained_on_the_same_lack_drape(real: dict[str, Conversion], r
 @pytest.mark.shared
 def test_real_rows_are_otherwise_sound(real: dict[str, Conversion]) -> None:
     """No real row is ambiguous, repeated, misplaced or doubtful, and all scenarios are known."""
+    assert real
     for conversion in real.values():
         assert not conversion.ambiguous
         assert not conversion.repeated

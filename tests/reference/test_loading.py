@@ -209,6 +209,12 @@ TRIALS, RATINGS, RESPONSES = "Alpha.csv", "human_trials.csv", "human_responses.c
             "the line has 5 cells, not 6",
         ),
         (
+            set_content(RATINGS, b"trial_id,n,n_yes\na\n"),
+            "reference-malformed",
+            (RATINGS, 2),
+            "the line has 1 cell, not 3",
+        ),
+        (
             set_content(RATINGS, b"trial_id,n,n_yes\n\na,1,1\n"),
             "reference-malformed",
             (RATINGS, 2),

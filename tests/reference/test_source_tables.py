@@ -45,7 +45,7 @@ def test_line_ends_and_byte_order_mark_do_not_matter(tmp_path: Path, content: by
         (b"a,c\n1,2\n", ":1: lacks the column b; found a, c"),
         (b"a,b,a\n1,2,3\n", ":1: columns 1 and 3 have the same name"),
         (b"a,b\n", ": holds a header but no rows"),
-        (b"a,b\n1,2\n1\n", ":3: has 1 cells where the header has 2"),
+        (b"a,b\n1,2\n1\n", ":3: has 1 cell where the header has 2"),
         (b"a,b\n1,2,3\n", ":2: has 3 cells where the header has 2"),
         (b"a,b\n1,2\n\n3,4\n", ":3: the line is blank"),
         (b'a,b\n1,"2\n', ":2: malformed CSV: unexpected end of data"),

@@ -1,6 +1,5 @@
 """Pages, figures and data of a small fixed board, byte for byte; tests/golden/README.md explains."""
 
-import os
 import re
 from pathlib import Path
 
@@ -36,10 +35,10 @@ def mask_hashes(content: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("path", CHOSEN)
-def test_a_file_is_as_it_was_accepted(files: dict[str, bytes], path: str) -> None:
+def test_a_file_is_as_it_was_accepted(files: dict[str, bytes], path: str, is_accepting: bool) -> None:
     """Byte for byte; ACCEPT=1 writes it anew, for a person to read the difference."""
     golden, content = GOLDEN / path, mask_hashes(files[path])
-    if os.environ.get("ACCEPT"):
+    if is_accepting:
         golden.parent.mkdir(parents=True, exist_ok=True)
         golden.write_bytes(content)
     assert golden.is_file(), f"tests/golden/{path} is not there: accept it as tests/golden/README.md says"
