@@ -154,3 +154,16 @@ def test_with_counts_only_people_are_fixed() -> None:
     assert Draws.of(counts).people is None
     found = _scope(compare(_submission("a", 1, counts), _submission("b", 2, counts), counts), "Beta")
     assert isinstance(found.human_r_difference, Interval)
+
+
+def test_one_trial_has_no_kappa_for_another_reason() -> None:
+    """Two that differ on the only trial of a scope do not give one and the same answer."""
+    kept = [0, *range(12, 36)]
+    names = ("properties", "scenarios", "pairs", "copies", "labels")
+    arrays = {name: getattr(REFERENCE, name)[kept] for name in names}
+    trial_ids = tuple(REFERENCE.trial_ids[index] for index in kept)
+    reference = replace(REFERENCE, trial_ids=trial_ids, people=None, **arrays)
+    yes, no = (build_submission(reference, [p] * len(kept)) for p in (0.9, 0.1))
+    assert _scope(compare(yes, no, reference), "alpha_one").kappa == Undefined("there is but one trial")
+    why = "both give one and the same answer to every trial"
+    assert _scope(compare(yes, yes, reference), "alpha_two").kappa == Undefined(why)

@@ -25,6 +25,7 @@ N_TRIALS_SHOWN = 10
 COMPARED = ("accuracy", "human_r")
 
 SAME_ANSWER_ALWAYS = Undefined("both give one and the same answer to every trial")
+ONE_TRIAL = Undefined("there is but one trial")
 
 T = TypeVar("T")
 
@@ -174,7 +175,9 @@ def _count_overlap(credits_a: Floats, credits_b: Floats, difference: Floats) -> 
 
 def _kappa(answers_a: Floats, answers_b: Floats) -> Estimate:
     kappa = mean_kappa(answers_a, answers_b, np.zeros(answers_a.size, np.int64))
-    return SAME_ANSWER_ALWAYS if isinstance(kappa, Undefined) else kappa
+    if isinstance(kappa, Undefined):
+        return SAME_ANSWER_ALWAYS if answers_a.size > 1 else ONE_TRIAL
+    return kappa
 
 
 def _find_trials(a: Submission, b: Submission, reference: Reference) -> Iterator[TrialDifference]:

@@ -88,24 +88,34 @@ def _scope_table(
 def _accuracy_cells(scope: ScopeComparison) -> list[str]:
     overlap, difference = scope.overlap, scope.difference
     return [
-        f"{100 * scope.accuracy_a:.1f}",
-        f"{100 * scope.accuracy_b:.1f}",
-        f"{100 * difference.value:+.1f}",
-        f"{100 * difference.low:+.1f} to {100 * difference.high:+.1f}",
+        f"{100 * _settle(scope.accuracy_a):.1f}",
+        f"{100 * _settle(scope.accuracy_b):.1f}",
+        _show_points(difference.value),
+        f"{_show_points(difference.low)} to {_show_points(difference.high)}",
         format_p(Score(value=scope.p)),
         f"{overlap.n_pairs_a} / {overlap.n_pairs_b} / {overlap.n_pairs_equal}",
     ]
 
 
 def _agreement_cells(scope: ScopeComparison) -> list[str]:
-    kappa = None if isinstance(scope.kappa, Undefined) else Score(value=scope.kappa)
+    kappa = None if isinstance(scope.kappa, Undefined) else Score(value=_settle(scope.kappa))
     return [*_interval_cells(scope.human_r_difference), format_number(kappa)]
 
 
 def _interval_cells(interval: Interval | Undefined) -> list[str]:
     if isinstance(interval, Undefined):
         return [ABSENT, ABSENT]
-    return [f"{interval.value:+.3f}", f"{interval.low:+.3f} to {interval.high:+.3f}"]
+    value, low, high = (f"{_settle(end):+z.3f}" for end in (interval.value, interval.low, interval.high))
+    return [value, f"{low} to {high}"]
+
+
+def _show_points(difference: float) -> str:
+    return f"{100 * _settle(difference):+z.1f}"
+
+
+def _settle(value: float) -> float:
+    """Round as JSON and the website do before they print, so that all print the same digits."""
+    return round(value, DECIMALS) + 0.0
 
 
 def _trial_table(comparison: Comparison) -> Table:

@@ -8,6 +8,7 @@ import pytest
 
 from builders import build_metadata, build_reference, build_submission
 from leaderboard.comparing import Comparison, compare
+from leaderboard.metrics.resampling import Interval
 from leaderboard.report.comparison import render_comparison, render_comparison_json
 
 REFERENCE = build_reference(8)
@@ -44,6 +45,21 @@ def test_the_table_has_the_numbers_of_the_comparison() -> None:
     ]
     assert text.startswith("A  With  with-it\nB  Without  without-it\n")
     assert "SYNTHETIC reference" in text
+
+
+def test_noise_behind_six_decimals_decides_no_digit() -> None:
+    """As in JSON and on the website: rounded first, half to even then, and no negative zero."""
+    comparison = _compare()
+    scope = replace(
+        comparison.scopes[0],
+        difference=Interval(-1e-9, -0.012500000000000011, 0.002500000000000001),
+        human_r_difference=Interval(-1e-9, -0.06250000000000025, 0.06250000000000025),
+        kappa=0.06250000000000025,
+    )
+    text = render_comparison(replace(comparison, scopes=(scope,)), REFERENCE, NAMES)
+    accuracy, agreement = (line.split() for line in text.splitlines() if line.startswith(" overall"))
+    assert accuracy[3:7] == ["+0.0", "-1.2", "to", "+0.2"]
+    assert agreement[1:] == ["+0.000", "-0.062", "to", "+0.062", "0.062"]
 
 
 @pytest.mark.parametrize(("order", "difference"), [(1, "A-B"), (-1, "B-A")])
