@@ -18,9 +18,9 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.scoring import describe_system, simulate_submissions
-from leaderboard.files import canonical_json
+from leaderboard.files import csv_text
 from leaderboard.grading import Yardstick, grade
-from leaderboard.instance import PREDICTIONS_FILE, RESULT_FILE, SUBMISSION_FILE, Instance
+from leaderboard.instance import PREDICTIONS_FILE, SUBMISSION_FILE, Instance
 from leaderboard.metrics.accuracy import credits_of
 from leaderboard.ranking import Entry
 from leaderboard.reference import Reference, load_reference
@@ -61,14 +61,18 @@ def main() -> int:
 
 
 def simulate_publications(reference: Reference, n: int) -> Iterator[Publication]:
-    """Simulate graded submissions of evenly spread skill, with what they are downloaded as left empty."""
+    """Simulate graded submissions of evenly spread skill, with files as large as real ones are."""
     yardstick = Yardstick.of(reference)
     for index, submission in enumerate(simulate_submissions(reference, n)):
         slug = f"system-{index:04d}"
         credits = credits_of(submission.probabilities, reference.labels, submission.answered)
         given = np.where(submission.answered, submission.probabilities, np.nan)
         result = grade(submission, reference, yardstick=yardstick)
-        files = {PREDICTIONS_FILE: b"", SUBMISSION_FILE: b"", RESULT_FILE: canonical_json({}).encode()}
+        rows = zip(reference.trial_ids, submission.probabilities, strict=True)
+        files = {
+            PREDICTIONS_FILE: csv_text(["trial_id", "probability"], rows).encode(),
+            SUBMISSION_FILE: b"",
+        }
         yield Publication(Entry(slug, describe_system(slug, reference), result, credits, given), files)
 
 

@@ -10,7 +10,6 @@ import html5lib
 import numpy as np
 
 from builders import build_entry, build_reference
-from leaderboard.grading import result_bytes
 from leaderboard.instance import Instance
 from leaderboard.models import Check
 from leaderboard.ranking import Entry
@@ -82,7 +81,6 @@ def build_material(reference: Reference | None = None, entries: list[Entry] | No
             {
                 "predictions.csv": b"trial_id,probability\n",
                 "submission.toml": b"",
-                "result.json": result_bytes(entry.result),
             },
         )
         for entry in chosen
@@ -150,7 +148,7 @@ def text_of(element: Element) -> str:
 
 def score_of(cell: Element) -> str:
     """The number that a cell of a table shows, without what stands below it."""
-    return next(text_of(part) for part in cell.iter() if part.get("class") == "score")
+    return next(text.strip() for text in cell.itertext() if text.strip())
 
 
 def interval_of(cell: Element) -> str:

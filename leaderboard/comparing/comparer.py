@@ -53,7 +53,7 @@ class Contender:
     def of(cls, submission: Submission, covered: Booleans, yardstick: Yardstick) -> Self:
         """Score a submission on trials that it covers, and keep only what comparing needs."""
         observations = Observations.of(submission, yardstick.reference)
-        tally = tally_scores(observations, covered, yardstick, subsets=("all",))
+        tally = tally_scores(observations, covered, yardstick, subsets=("all",), metrics=COMPARED)
         keys = [(scope, metric) for scope in tally.estimates for metric in COMPARED]
         return cls(
             submission,

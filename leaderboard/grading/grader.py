@@ -21,6 +21,8 @@ from leaderboard.models.benchmark import OVERALL
 from leaderboard.reference import Reference
 from leaderboard.submission import Submission
 
+NAMES = frozenset(metric.name for metric in METRICS)
+
 
 def grade(
     submission: Submission,
@@ -73,21 +75,24 @@ def tally_scores(
     yardstick: Yardstick,
     *,
     subsets: Collection[str] = SUBSETS,
+    metrics: Collection[str] = NAMES,
     keeps_resamples: bool = True,
 ) -> Tally:
-    """Compute every metric of every cell with its resamples, and the averages over the properties.
+    """Compute metrics of every cell with their resamples, and the averages over the properties.
 
     Parameters
     ----------
-    subsets
-        Those that are wanted, which says nothing about what they give; the cross-fitted need ``all``.
+    subsets, metrics
+        Those that are wanted, which says nothing about what they give; the cross-fitted need ``all``, and
+        have every metric.
     keeps_resamples
         Whether the resamples themselves are wanted, not only the intervals, which are faster alone.
     """
     tally = Tally(yardstick.properties, keeps_resamples)
     for group in yardstick.group_cells(covered):
         cells = [cell for cell in group if cell.subset in subsets]
-        _score_cells(tally, observations, cells, yardstick, subsets)
+        measured = [_measure(observations, cell, yardstick, metrics) for cell in cells]
+        _score_cells(tally, measured, yardstick, subsets)
     if covered.all():
         tally.average()
         _pool_p_values(tally, observations, yardstick)
@@ -95,14 +100,10 @@ def tally_scores(
 
 
 def _score_cells(
-    tally: Tally,
-    observations: Observations,
-    cells: Sequence[Cell],
-    yardstick: Yardstick,
-    subsets: Collection[str],
+    tally: Tally, measured: Sequence[Measured], yardstick: Yardstick, subsets: Collection[str]
 ) -> None:
-    """Compute the metrics of the cells of a property, and those of its cross-fitted subsets."""
-    measured = [_measure(observations, cell, yardstick) for cell in cells]
+    """Resample the metrics of the cells of a property, and compute those of its cross-fitted subsets."""
+    cells = [m.cell for m in measured]
     pairs = [(c, m.observed) for m in measured for c in yardstick.find_cross_cells(m.cell)]
     crossed = [CrossMeasured(cross, observed) for cross, observed in pairs if cross.name in subsets]
     columns = [m.columns for m in measured] + [c.columns for c in crossed]
@@ -114,10 +115,12 @@ def _score_cells(
         tally.add(c.cross.key, c.cross.counts, c.estimates, c.resample(of_subset))
 
 
-def _measure(observations: Observations, cell: Cell, yardstick: Yardstick) -> Measured:
+def _measure(
+    observations: Observations, cell: Cell, yardstick: Yardstick, metrics: Collection[str]
+) -> Measured:
     found = yardstick.find_reliability(cell)
     o = cell.observe(observations, reliability=found.value if found else NOT_A_PROPERTY)
-    return Measured(cell, o, _estimate(o))
+    return Measured(cell, o, _estimate(o, metrics))
 
 
 def _pool_p_values(tally: Tally, observations: Observations, yardstick: Yardstick) -> None:
@@ -129,10 +132,11 @@ def _pool_p_values(tally: Tally, observations: Observations, yardstick: Yardstic
             tally.estimates[OVERALL][subset] |= p_values
 
 
-def _estimate(observations: Observations) -> dict[str, Estimate]:
+def _estimate(observations: Observations, metrics: Collection[str]) -> dict[str, Estimate]:
+    wanted = [metric for metric in METRICS if metric.name in metrics]
     if not observations.labels.size:
-        return {metric.name: EMPTY_SUBSET for metric in METRICS}
-    return {metric.name: metric.compute(observations) for metric in METRICS}
+        return {metric.name: EMPTY_SUBSET for metric in wanted}
+    return {metric.name: metric.compute(observations) for metric in wanted}
 
 
 def result_bytes(result: Result) -> bytes:

@@ -19,6 +19,7 @@ from leaderboard.metrics.agreement import answers_of
 from leaderboard.metrics.resampling import INFLUENCE_BITS, on_grid
 from leaderboard.metrics.undefined import Estimate, Undefined
 
+KAPPAS = ("error_consistency", "cohen_kappa")
 RANGES = {metric.name: (metric.low, metric.high) for metric in METRICS}
 
 
@@ -37,9 +38,9 @@ class Measured:
 
     @cached_property
     def kappas(self) -> Mapping[str, tuple[Floats, Floats]]:
-        """Derivatives of both kappas by the weights of trials and of people; none without responses."""
+        """Derivatives of both kappas by the weights of trials and of people; none where none is wanted."""
         o = self.observed
-        if o.responses is None:
+        if o.responses is None or self.estimates.keys().isdisjoint(KAPPAS):
             return {}
         trials, persons, answers = o.responses
         is_right = (answers == o.labels[trials]).astype(np.int64)
@@ -93,8 +94,11 @@ def resample_cells(
     effects = iter(yardstick.draw_effects(cells[0], [pull for m in measured for pull in m.pulls.values()]))
     for m, fine, of_halves in zip(measured, sums, halves, strict=True):
         o, cell = m.observed, m.cell
-        outranked = calibration.count_outranked(o.probabilities, o.labels, cell.positions, cell.whole_weights)
-        s = {**cell.shared_sums, **fine, **of_halves, "outranked": outranked}
+        s = {**cell.shared_sums, **fine, **of_halves}
+        if "auc" in m.values:  # which takes as long as many others
+            s["outranked"] = calibration.count_outranked(
+                o.probabilities, o.labels, cell.positions, cell.whole_weights
+            )
         yield _resample(m, s, {name: next(effects) for name in m.pulls}, yardstick.resample_ceiling(cell))
 
 

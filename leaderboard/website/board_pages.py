@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from leaderboard.website.figure_files import PICTURED
 from leaderboard.website.figures.marks import Drawing
-from leaderboard.website.pages import Cell, Column, Fact, Link, Page
+from leaderboard.website.pages import Cell, Column, DataFile, Fact, Link, Page
 
 MANY_ROWS = 25
 
@@ -65,14 +65,6 @@ class BoardSection:
 
 
 @dataclass(frozen=True)
-class RowsFile:
-    """Rows of a board as data for its script: where the file is, and its bytes."""
-
-    path: str
-    content: bytes
-
-
-@dataclass(frozen=True)
 class BoardPage(Page):
     """The board of one track, or a part of it, of which the first one has everything but the other rows.
 
@@ -98,14 +90,20 @@ class BoardPage(Page):
     comparisons: Link | None
     pairs: tuple[str, ...]
     elsewhere: tuple[Link, ...]
+    has_citation: bool
     parts: tuple[Link, ...] = ()
-    rest: RowsFile | None = None
+    rest: DataFile | None = None
     is_first: bool = True
 
     @property
     def figures(self) -> tuple[Drawing, ...]:
         """At a glance."""
         return self.drawings
+
+    @property
+    def data_files(self) -> tuple[DataFile, ...]:
+        """Rows that are in other pages."""
+        return (self.rest,) if self.rest else ()
 
     @property
     def formats(self) -> tuple[str, ...]:

@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from leaderboard.files import sha256_hex
-from leaderboard.website.board_pages import BoardPage, BoardRow, BoardSection, RowsFile
+from leaderboard.website.board_pages import BoardPage, BoardRow, BoardSection
 from leaderboard.website.board_rows import render_rows
-from leaderboard.website.pages import Link
+from leaderboard.website.pages import DataFile, Link
 from leaderboard.website.rendering import N_HASH_DIGITS
 
 ROWS_A_PAGE = 200
@@ -39,7 +39,7 @@ def _lead(page: BoardPage, links: tuple[Link, ...], track_id: str, ranked: list[
         for section in page.sections
     )
     parts = _mark(links, links[0])
-    return replace(page, sections=tuple(sections), parts=parts, rest=RowsFile(f"data/{name}", content))
+    return replace(page, sections=tuple(sections), parts=parts, rest=DataFile(f"data/{name}", content))
 
 
 def _follow(page: BoardPage, links: tuple[Link, ...], link: Link, rows: tuple[BoardRow, ...]) -> BoardPage:

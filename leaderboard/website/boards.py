@@ -79,6 +79,7 @@ def compose_board(board: Board, material: Material) -> BoardPage:
         comparisons=_link_comparisons(board, material),
         pairs=tuple(pair_key(c.a, c.b) for c in list_comparisons(board, material)),
         elsewhere=_link_unplaced(material) if board.track.default else (),
+        has_citation=bool(material.texts.citation),
     )
 
 

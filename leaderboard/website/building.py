@@ -1,15 +1,18 @@
-"""Building the website: gather everything, then render and write it, the same bytes for the same inputs."""
+"""Building the website: gather everything, then render and write it, the same bytes for the same inputs.
 
-from collections.abc import Iterator
+Pages are composed one by one as they are written, since all those of a thousand submissions would fill a
+gigabyte. They go to a folder of their own, which takes the earlier site's place when all of it is there.
+"""
+
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from leaderboard.files import remove_leftovers
+from leaderboard.files import hold_folder, remove_leftovers
 from leaderboard.instance import Instance
 from leaderboard.reference import load_reference
 from leaderboard.website.about_pages import compose_about
 from leaderboard.website.badges import render_badges
-from leaderboard.website.board_pages import BoardPage
 from leaderboard.website.board_parts import split_board
 from leaderboard.website.boards import compose_board
 from leaderboard.website.comparison_tables import compose_comparison_pages, compose_comparisons
@@ -46,7 +49,8 @@ class SiteReport:
 def build_site(instance: Instance, out: Path | None = None, *, commit: str = "") -> SiteReport:
     """Build the website of an instance into a folder, in place of an earlier one.
 
-    Where the folder holds what these inputs gave before, it stays as it is.
+    Where the folder holds what these inputs gave before, it stays as it is. A build waits until another of
+    the same instance has ended.
 
     Parameters
     ----------
@@ -67,45 +71,51 @@ def build_site(instance: Instance, out: Path | None = None, *, commit: str = "")
     """
     folder = out or instance.dist_dir
     refuse_other_content(folder)
-    remove_leftovers(instance.site_dir)
+    with hold_folder(instance.root):
+        remove_leftovers(instance.site_dir)
+        return _build(instance, folder, commit)
+
+
+def _build(instance: Instance, folder: Path, commit: str) -> SiteReport:
     inputs = digest_inputs(instance, folder, commit)
     if is_current(folder, inputs):
-        return SiteReport(folder, sum(1 for _ in folder.rglob("*.html")), was_current=True)
+        return SiteReport(folder, _count_pages(folder), was_current=True)
     reference = load_reference(instance)
     publications = load_publications(instance, reference)
     material = gather(reference, publications, load_published(instance), load_texts(instance))
-    pages = compose_pages(material)
-    replace_site(folder, render_site(material, pages, commit), inputs)
-    return SiteReport(folder, len(pages))
+    replace_site(folder, render_site(material, compose_pages(material), commit), inputs)
+    return SiteReport(folder, _count_pages(folder))
 
 
-def compose_pages(material: Material) -> list[tuple[str, Page]]:
-    """Gather every page, each with the template that prints it."""
-    pages: list[tuple[str, Page]] = []
+def _count_pages(folder: Path) -> int:
+    return sum(1 for _ in folder.rglob("*.html"))
+
+
+def compose_pages(material: Material) -> Iterator[tuple[str, Page]]:
+    """Gather every page, each with the template that prints it, one after the other."""
     for board in material.boards:
         parts = split_board(compose_board(board, material), board.track.id)
-        pages += [("board.html", part) for part in parts]
-    pages += [("figure.html", compose_figure(board, material)) for board in material.boards]
-    pages += [("submission.html", compose_scorecard(p, material)) for p in material.publications]
-    pages += [("property.html", page) for page in compose_properties(material)]
-    pages.append(("grid.html", compose_trials(material)))
-    pages += [("grid.html", page) for page in compose_submission_trials(material)]
-    pages += [("trials.html", page) for page in compose_trial_lists(material)]
-    pages += [("trial.html", page) for page in compose_trial_pages(material)]
-    pages += [("comparison.html", page) for page in compose_comparison_pages(material)]
+        yield from (("board.html", part) for part in parts)
+    yield from (("figure.html", compose_figure(board, material)) for board in material.boards)
+    yield from (("submission.html", compose_scorecard(p, material)) for p in material.publications)
+    yield from (("property.html", page) for page in compose_properties(material))
+    yield "grid.html", compose_trials(material)
+    yield from (("grid.html", page) for page in compose_submission_trials(material))
+    yield from (("trials.html", page) for page in compose_trial_lists(material))
+    yield from (("trial.html", page) for page in compose_trial_pages(material))
+    yield from (("comparison.html", page) for page in compose_comparison_pages(material))
     if material.comparisons:
-        pages.append(("comparisons.html", compose_comparisons(material)))
-    pages.append(("people.html", compose_people(material)))
-    pages.append(("method.html", compose_method(material)))
-    pages.append(("published.html", compose_published(material)))
-    pages.append(("data.html", compose_data(material)))
-    pages.append(("about.html", compose_about(material)))
-    pages.append(("404.html", Page("404.html", "Page not found", "There is nothing under this address.")))
-    return pages
+        yield "comparisons.html", compose_comparisons(material)
+    yield "people.html", compose_people(material)
+    yield "method.html", compose_method(material)
+    yield "published.html", compose_published(material)
+    yield "data.html", compose_data(material)
+    yield "about.html", compose_about(material)
+    yield "404.html", Page("404.html", "Page not found", "There is nothing under this address.")
 
 
 def render_site(
-    material: Material, pages: list[tuple[str, Page]], commit: str = ""
+    material: Material, pages: Iterable[tuple[str, Page]], commit: str = ""
 ) -> Iterator[tuple[str, bytes]]:
     """Render every file of the site as its path and its bytes, one after the other."""
     frame = frame_of(material.reference, commit)
@@ -113,11 +123,10 @@ def render_site(
     yield from render_assets().items()
     for template, page in pages:
         yield page.path, render_page(template, frame, page)
-        if isinstance(page, BoardPage) and page.rest:
-            yield page.rest.path, page.rest.content
+        yield from ((file.path, file.content) for file in page.data_files)
+        yield from render_figures(frame, [page])
     yield from render_exports(material)
     yield from render_badges(material)
-    yield from render_figures(frame, [page for _, page in pages])
     yield "feed.xml", render_feed(compose_feed(material))
     for publication in material.publications:
         for name, content in publication.files.items():

@@ -1,15 +1,20 @@
-"""The numbers behind the pages, for programs: JSON under ``api/`` and one CSV table."""
+"""The numbers behind the pages, for programs: JSON under ``api/``, and CSV tables of submissions and trials.
 
-from collections.abc import Iterator
+The JSON has no blanks: it is half as large so, and takes a quarter of the time. A row is rendered once, for
+the file of its submission and for the one of all boards.
+"""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
 from math import isinf
 
 from leaderboard import __version__
-from leaderboard.files import canonical_json, csv_text
+from leaderboard.files import csv_text
 from leaderboard.grading import METRICS, METRICS_VERSION, subset_masks
 from leaderboard.grading.metrics import P_VALUES
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Entry, Row
-from leaderboard.reference import People
+from leaderboard.reference import People, Reference
 from leaderboard.report.board import (
     board_detectable,
     entry_data,
@@ -19,6 +24,7 @@ from leaderboard.report.board import (
     scores_data,
 )
 from leaderboard.website.material import Count, Material
+from leaderboard.website.trial_paths import TRIALS_TABLE
 
 SCHEMA = 1
 CSV_FACTS = [
@@ -26,24 +32,40 @@ CSV_FACTS = [
     *("family", "inputs", "training", "testing", "reference"),
 ]
 
+TRIAL_FACTS = ("trial", "trial_id", "property", "scenario", "pair_id", "label", "people", "people_yes")
+
 
 def render_exports(material: Material) -> Iterator[tuple[str, bytes]]:
     """Render every file for programs as its path in the site and its bytes."""
-    yield "api/leaderboard.json", canonical_json(leaderboard_data(material)).encode()
-    yield "api/reference.json", canonical_json(reference_data(material)).encode()
-    for publication in material.publications:
-        slug = publication.entry.slug
-        data = canonical_json(submission_data(publication.entry, material))
-        yield f"api/submissions/{slug}.json", data.encode()
+    rows = {}
+    for entry in (publication.entry for publication in material.publications):
+        board, row = material.standings.get(entry.slug, (None, Row(entry, None)))
+        place = {**_origin(material), "track": board.track.id if board else None}
+        rows[entry.slug] = _render(row_data(row))
+        yield f"api/submissions/{entry.slug}.json", _finish(_merge(_render(place), rows[entry.slug]))
+    yield "api/leaderboard.json", _finish("".join(_list_boards(material, rows)))
+    yield "api/reference.json", _finish(_render(reference_data(material)))
     yield "leaderboard.csv", render_csv(material).encode()
+    yield TRIALS_TABLE, render_trials(material.reference).encode()
 
 
-def leaderboard_data(material: Material) -> dict[str, object]:
-    """Lay out all boards with all scores; an end of a metric's range that is infinite is null."""
+def _list_boards(material: Material, rows: Mapping[str, str]) -> Iterator[str]:
+    """Yield all boards with all scores, piece by piece; each row, rendered already, has a line of its own."""
+    boards = (
+        _embed(_board_data(board), rows=((rows[row.entry.slug],) for row in board.rows))
+        for board in material.boards
+    )
+    unplaced = ((_render(entry_data(entry)),) for entry in material.unplaced)
+    return _embed(_describe_boards(material), tracks=boards, unplaced=unplaced)
+
+
+def _describe_boards(material: Material) -> dict[str, object]:
+    """Lay out what all boards share; an end of a metric's range that is infinite is null."""
+    benchmark = material.reference.benchmark
     return {
         "schema": SCHEMA,
-        "benchmark": material.reference.benchmark.name,
-        "version": material.reference.benchmark.version,
+        "benchmark": benchmark.name,
+        "version": benchmark.version,
         "reference": _identity(material),
         "grader": __version__,
         "metrics_version": METRICS_VERSION,
@@ -60,20 +82,44 @@ def leaderboard_data(material: Material) -> dict[str, object]:
             for metric in METRICS
         ],
         "people": scores_data(material.people),
-        "tracks": [_board_data(board) for board in material.boards],
-        "unplaced": [entry_data(entry) for entry in material.unplaced],
     }
 
 
-def submission_data(entry: Entry, material: Material) -> dict[str, object]:
-    """Lay out one submission with its place on its board, if it has one."""
-    board, row = material.standings.get(entry.slug, (None, Row(entry, None)))
-    return {
-        "schema": SCHEMA,
-        "reference": _identity(material),
-        "track": board.track.id if board else None,
-        **row_data(row),
-    }
+def _render(data: Mapping[str, object]) -> str:
+    return json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+
+def _embed(data: Mapping[str, object], **lists: Iterable[Iterable[str]]) -> Iterator[str]:
+    """Yield an object with further lists, whose members are rendered already, as pieces.
+
+    Were they one text at each step, the largest board would be in memory many times over.
+
+    >>> print("".join(_embed({"a": 1}, b=[["[2", "]"]])))
+    {"a":1,"b":[
+    [2]
+    ]}
+    """
+    yield _render(data)[:-1]
+    for name, members in lists.items():
+        yield f',"{name}":['
+        for number, pieces in enumerate(members):
+            yield ",\n" if number else "\n"
+            yield from pieces
+        yield "\n]"
+    yield "}"
+
+
+def _merge(first: str, second: str) -> str:
+    """Make one object of two that are rendered already, none of them empty.
+
+    >>> _merge('{"a":1}', '{"b":2}')
+    '{"a":1,"b":2}'
+    """
+    return f"{first[:-1]},{second[1:]}"
+
+
+def _finish(text: str) -> bytes:
+    return f"{text}\n".encode()
 
 
 def reference_data(material: Material) -> dict[str, object]:
@@ -136,6 +182,23 @@ def render_csv(material: Material) -> str:
     return csv_text(header, rows)
 
 
+def render_trials(reference: Reference) -> str:
+    """Render one row per trial: its number, by which figures name it, what it is, and what people said.
+
+    Without human data the last two columns are empty.
+    """
+    people, benchmark = reference.people, reference.benchmark
+    n_asked = [("", "")] * reference.n_trials if people is None else zip(people.n, people.n_yes, strict=True)
+    facts = zip(reference.trial_ids, reference.properties, reference.scenarios, strict=True)
+    rows = []
+    for index, ((trial_id, property_, scenario), asked) in enumerate(zip(facts, n_asked, strict=True)):
+        names = [trial_id, benchmark.properties[property_].name, benchmark.scenarios[scenario].id]
+        pair = reference.pair_ids[reference.pairs[index]]
+        texts = [escape_formula(name) for name in (*names, pair)]
+        rows.append([index + 1, *texts, reference.labels[index], *asked])
+    return csv_text(TRIAL_FACTS, rows)
+
+
 def _list_rows(material: Material) -> Iterator[tuple[str, Row]]:
     """Yield each submission once with its track; baselines and those on no board have none."""
     for board in material.boards:
@@ -176,8 +239,11 @@ def _board_data(board: Board) -> dict[str, object]:
         "conditions": track.conditions,
         "metric": board.metric,
         "detectable_difference": board_detectable(board),
-        "rows": [row_data(row) for row in board.rows],
     }
+
+
+def _origin(material: Material) -> dict[str, object]:
+    return {"schema": SCHEMA, "reference": _identity(material)}
 
 
 def _identity(material: Material) -> dict[str, object]:

@@ -22,8 +22,8 @@ GUTTER = 28
 LEADING = 1.35
 """How far apart lines are, in sizes of their letters."""
 
-ENLARGED = 2
-"""How many pixels wide a unit is, since figures on pages are as wide as a telephone."""
+ENLARGED, ENLARGED_ROW = 2, 1
+"""How many pixels wide a unit is: figures on pages are as narrow as a telephone, several abreast are not."""
 
 N_DECIMALS = 6
 """As many as results have."""
@@ -43,10 +43,14 @@ class Placed:
 
 @dataclass(frozen=True)
 class Picture:
-    """Drawings that stand alone; ``around`` them are heading, titles, captions and origin."""
+    """Drawings that stand alone; ``around`` them are heading, titles, captions and origin.
+
+    ``enlarged`` is how many pixels wide a unit is.
+    """
 
     around: Drawing
     placed: tuple[Placed, ...]
+    enlarged: float = ENLARGED
 
 
 def render_figures(frame: Frame, pages: Iterable[Page]) -> Iterator[tuple[str, bytes]]:
@@ -78,12 +82,12 @@ def compose_picture(export: Export, heading: str, origin: str) -> Picture:
     n_abreast = min(export.n_abreast, len(drawings))
     width = 2 * MARGIN + n_abreast * WIDTH + (n_abreast - 1) * GUTTER
     sketch, placed = Sketch(bottom=MARGIN), []
-    _write(sketch, HEADING, heading, (MARGIN, width - 2 * MARGIN))
+    write_words(sketch, HEADING, heading, (MARGIN, width - 2 * MARGIN))
     for first in range(0, len(drawings), n_abreast):
         row = _place_row(sketch, drawings[first : first + n_abreast])
         sketch.bottom = max(place.y + place.drawing.height for place in row) + SMALL.size
         placed += row
-    _write(sketch, SMALL, origin, (MARGIN, width - 2 * MARGIN))
+    write_words(sketch, SMALL, origin, (MARGIN, width - 2 * MARGIN))
     sketch.bottom += MARGIN
     around = sketch.finish(
         export.name,
@@ -92,7 +96,8 @@ def compose_picture(export: Export, heading: str, origin: str) -> Picture:
         description=" ".join(drawing.description for drawing in drawings),
         numbers={},
     )
-    return Picture(replace(around, width=width, palette=ON_THEIR_OWN), tuple(placed))
+    enlarged = ENLARGED_ROW if n_abreast > 1 else ENLARGED
+    return Picture(replace(around, width=width, palette=ON_THEIR_OWN), tuple(placed), enlarged)
 
 
 def _place_row(sketch: Sketch, drawings: Sequence[Drawing]) -> list[Placed]:
@@ -100,8 +105,8 @@ def _place_row(sketch: Sketch, drawings: Sequence[Drawing]) -> list[Placed]:
     top, bottoms, lefts = sketch.bottom + SMALL.size / 2, [], []
     for number, drawing in enumerate(drawings):
         sketch.bottom, left = top, MARGIN + number * (WIDTH + GUTTER)
-        _write(sketch, BOLD, drawing.title, (left, WIDTH))
-        _write(sketch, SMALL, drawing.caption, (left, WIDTH))
+        write_words(sketch, BOLD, drawing.title, (left, WIDTH))
+        write_words(sketch, SMALL, drawing.caption, (left, WIDTH))
         bottoms.append(sketch.bottom)
         lefts.append(left)
     y = tidy(max(bottoms) + SMALL.size)
@@ -109,7 +114,7 @@ def _place_row(sketch: Sketch, drawings: Sequence[Drawing]) -> list[Placed]:
     return [Placed(left, y, drawing) for left, drawing in zip(lefts, shown, strict=True)]
 
 
-def _write(sketch: Sketch, ink: Ink, words: str, place: tuple[float, float]) -> None:
+def write_words(sketch: Sketch, ink: Ink, words: str, place: tuple[float, float]) -> None:
     """Write words from a left edge within a width, on as many lines as they take."""
     left, width = place
     for line in wrap(words, width, ink.size):
@@ -120,7 +125,7 @@ def _write(sketch: Sketch, ink: Ink, words: str, place: tuple[float, float]) -> 
 def render_svg(picture: Picture) -> str:
     """Render a picture as a file that needs no other."""
     template = environment().get_template("figure.svg")
-    return template.render(picture=picture, families=FAMILIES, enlarged=ENLARGED)
+    return template.render(picture=picture, families=FAMILIES)
 
 
 def render_numbers(drawings: Sequence[Drawing]) -> str:

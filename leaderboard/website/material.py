@@ -8,7 +8,7 @@ from leaderboard.comparing import Comparison
 from leaderboard.errors import InstanceError
 from leaderboard.grading import Scores, Yardstick, grade_people, list_scopes, subset_masks
 from leaderboard.ids import SLUG_RULE, is_slug
-from leaderboard.instance import PREDICTIONS_FILE, PUBLISHED_FILE, RESULT_FILE, SUBMISSION_FILE, Instance
+from leaderboard.instance import PREDICTIONS_FILE, PUBLISHED_FILE, SUBMISSION_FILE, Instance
 from leaderboard.ledger import load_ledger, published_dirs
 from leaderboard.metrics.accuracy import Booleans
 from leaderboard.metrics.pairs import find_pairs
@@ -23,7 +23,8 @@ from leaderboard.submission import read_submission
 from leaderboard.website.neighbours import compare_neighbours
 from leaderboard.website.texts import NO_TEXTS, Texts
 
-DOWNLOADS = (PREDICTIONS_FILE, SUBMISSION_FILE, RESULT_FILE)
+DOWNLOADS = (PREDICTIONS_FILE, SUBMISSION_FILE)
+"""Results are part of the files for programs already; a third copy would be an eighth of a large site."""
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,9 @@ from leaderboard.website.describing import (
     list_subsets,
 )
 from leaderboard.website.material import Material
+from leaderboard.website.method_pages import MethodPage, MetricEntry
 from leaderboard.website.numbers import ABSENT, show_range
-from leaderboard.website.pages import Fact, MethodPage, MetricEntry
+from leaderboard.website.pages import Fact
 from leaderboard.website.quantities import OF_BOARDS, OF_COMPARISONS, OF_PEOPLE, Described
 from leaderboard.website.remarks import describe_intervals
 

@@ -86,6 +86,14 @@ class Fact:
 
 
 @dataclass(frozen=True)
+class DataFile:
+    """Data for a page's script: where the file is, and its bytes."""
+
+    path: str
+    content: bytes
+
+
+@dataclass(frozen=True)
 class Page:
     """What every page has: where it is, what it is called, and what it is about."""
 
@@ -101,6 +109,11 @@ class Page:
     @property
     def figures(self) -> tuple[Drawing, ...]:
         """What is drawn on it."""
+        return ()
+
+    @property
+    def data_files(self) -> tuple[DataFile, ...]:
+        """What its script loads besides the page."""
         return ()
 
     @property
@@ -249,27 +262,6 @@ class SubmissionPage(Page):
     def figures(self) -> tuple[Drawing, ...]:
         """At a glance, and calibration."""
         return (*self.drawings, *self.diagrams)
-
-
-@dataclass(frozen=True)
-class MetricEntry:
-    """What a reader should know of a metric."""
-
-    name: str
-    title: str
-    meaning: str
-    direction: str
-    range: str
-    chance: str
-
-
-@dataclass(frozen=True)
-class MethodPage(Page):
-    """What every number means."""
-
-    metrics: tuple[MetricEntry, ...]
-    others: tuple[MetricEntry, ...]
-    terms: tuple[Fact, ...]
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from leaderboard.files import sha256_hex
 from leaderboard.grading import METRICS_VERSION
 from leaderboard.reference import Reference
 from leaderboard.website.describing import property_path
+from leaderboard.website.escaping import EscapingEnvironment
 from leaderboard.website.feed_items import Feed
 from leaderboard.website.pages import Frame, Page
 
@@ -65,7 +66,7 @@ def asset_path(name: str) -> str:
 @cache
 def environment() -> Environment:
     """The one Jinja environment: it escapes in every template and refuses names that are not there."""
-    return Environment(
+    return EscapingEnvironment(
         loader=PackageLoader("leaderboard.website"),
         autoescape=True,
         undefined=StrictUndefined,

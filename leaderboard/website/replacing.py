@@ -59,9 +59,12 @@ def refuse_other_content(folder: Path) -> None:
 def _write_all(folder: Path, contents: Iterable[tuple[str, bytes]], inputs: str | None) -> None:
     folder.mkdir()
     digests: dict[str, str] = {}
+    made = {folder}
     for path, content in contents:
         digests[path] = sha256_hex(content)
         target = folder / path
-        target.parent.mkdir(parents=True, exist_ok=True)
+        if target.parent not in made:  # asking the disk each time would take as long as writing
+            target.parent.mkdir(parents=True, exist_ok=True)
+            made.add(target.parent)
         target.write_bytes(content)
     (folder / MARKER).write_bytes(render_marker(inputs, digests))

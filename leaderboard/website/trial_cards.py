@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import isnan
 
 import numpy as np
@@ -12,6 +13,7 @@ from leaderboard.metrics.accuracy import Booleans, Floats
 from leaderboard.metrics.published import wilson_interval
 from leaderboard.ranking import Entry
 from leaderboard.reference import Reference
+from leaderboard.reference.data import Integers
 from leaderboard.website.describing import (
     SUBSET_TITLES,
     count_of,
@@ -62,21 +64,18 @@ class _Composer:
     ----------
     names
         Name and page of each submission.
-    said : (n_trials, n_submissions)
-        What each submission says of each trial; every page prints that of its twin as well.
-    order : (n_trials, n_submissions)
-        Submissions by falling probability, without an answer last.
-    n_answered, n_right : (n_trials,)
-        Submissions that answered, and ranked ones that are right.
+    probabilities, credits : (n_trials, n_submissions)
+        What each submission says of each trial, and what it earns with that.
+    n_right : (n_trials,)
+        Ranked submissions that are right.
     subsets
         Easy and hard as far as they are known: the rule, and which trials.
     """
 
     reference: Reference
     names: Sequence[Link]
-    said: list[list[Said]]
-    order: list[list[int]]
-    n_answered: list[int]
+    probabilities: Floats
+    credits: Floats
     n_right: list[int]
     n_ranked: int
     scenarios: list[Link]
@@ -97,12 +96,8 @@ class _Composer:
         return cls(
             reference=reference,
             names=tuple(_name_all(entries, material)),
-            said=[
-                [_print_said(*given) for given in zip(*both, strict=True)]
-                for both in zip(probabilities.tolist(), credits.tolist(), strict=True)
-            ],
-            order=np.argsort(-probabilities, axis=1, kind="stable").tolist(),
-            n_answered=(~np.isnan(probabilities)).sum(axis=1).tolist(),
+            probabilities=probabilities,
+            credits=credits,
             n_right=(rows.credits == 1).sum(axis=0).tolist(),
             n_ranked=rows.n_ranked,
             scenarios=list(_link_scenarios(reference)),
@@ -121,6 +116,7 @@ class _Composer:
         benchmark, twin = reference.benchmark, self.twins[trial]
         property_ = benchmark.properties[reference.properties[trial]]
         first = reference.trial_ids[self.firsts[trial]]
+        n_answered = int((~np.isnan(self.probabilities[trial])).sum())
         return TrialPage(
             path=trial_path(trial_id),
             title=trial_id,
@@ -131,8 +127,8 @@ class _Composer:
             facts=tuple(self._list_facts(trial)),
             twin=self._link_twin(twin) if twin >= 0 else None,
             people=tuple(self._answer_of_people(trial)),
-            answers=tuple(self._list_answers(trial)),
-            note=self._describe_omitted(trial),
+            answers=tuple(self._list_answers(trial, self._choose(trial, n_answered))),
+            note=self._describe_omitted(n_answered),
         )
 
     def _list_facts(self, trial: int) -> Iterator[Fact]:
@@ -176,22 +172,27 @@ class _Composer:
         n_right = n_yes if self.reference.labels[trial] else n - n_yes
         return _print_said(n_yes / n, (1 + int(np.sign(2 * n_right - n))) / 2)
 
-    def _list_answers(self, trial: int) -> Iterator[Answer]:
-        row = [self.said[member] for member in (trial, self.twins[trial]) if member >= 0]
-        for index in self._choose(trial):
-            yield Answer(self.names[index], tuple(said[index] for said in row))
+    def _list_answers(self, trial: int, chosen: Integers) -> Iterator[Answer]:
+        row = [member for member in (trial, self.twins[trial]) if member >= 0]
+        said = (self._list_said(member, chosen) for member in row)
+        for index, *of_row in zip(chosen.tolist(), *said, strict=True):
+            yield Answer(self.names[index], tuple(of_row))
 
-    def _choose(self, trial: int) -> list[int]:
+    def _list_said(self, trial: int, chosen: Integers) -> Iterator[Said]:
+        """Print what the chosen submissions say of a trial; of many, these are few of them."""
+        given = self.probabilities[trial, chosen].tolist(), self.credits[trial, chosen].tolist()
+        return (_print_said(*both) for both in zip(*given, strict=True))
+
+    def _choose(self, trial: int, n_answered: int) -> Integers:
         """Choose the submissions to list: all, or of many that answered those at either end."""
-        order = self.order[trial]
-        if len(order) <= MAX_ANSWERS:
+        order = np.argsort(-self.probabilities[trial], kind="stable")  # without an answer last
+        if order.size <= MAX_ANSWERS:
             return order
-        answered = order[: self.n_answered[trial]]
-        half = MAX_ANSWERS // 2
-        return answered if len(answered) <= MAX_ANSWERS else answered[:half] + answered[-half:]
+        answered, half = order[:n_answered], MAX_ANSWERS // 2
+        return answered if n_answered <= MAX_ANSWERS else np.concatenate([answered[:half], answered[-half:]])
 
-    def _describe_omitted(self, trial: int) -> str:
-        n, n_answered, half = len(self.names), self.n_answered[trial], MAX_ANSWERS // 2
+    def _describe_omitted(self, n_answered: int) -> str:
+        n, half = len(self.names), MAX_ANSWERS // 2
         if n <= MAX_ANSWERS:
             return ""
         ends = (
@@ -221,6 +222,7 @@ def _name_all(entries: Sequence[Entry], material: Material) -> Iterator[Link]:
         yield Link(title, submission_path(entry.slug), below)
 
 
+@lru_cache(2**16)  # on the page of a trial and on that of its twin
 def _print_said(probability: float, credit: float) -> Said:
     if isnan(probability):
         return Said(ABSENT, "", *NO_ANSWER)

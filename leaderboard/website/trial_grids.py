@@ -13,7 +13,13 @@ from leaderboard.website.material import Material
 from leaderboard.website.numbers import ABSENT
 from leaderboard.website.pages import Link
 from leaderboard.website.trial_pages import GridCell, GridPage, GridRow, GridSection
-from leaderboard.website.trial_paths import TRIALS_PATH, list_path, scenario_anchor, trial_anchor
+from leaderboard.website.trial_paths import (
+    TRIALS_PATH,
+    TRIALS_TABLE,
+    list_path,
+    scenario_anchor,
+    trial_anchor,
+)
 from leaderboard.website.trial_rows import TrialRows
 from leaderboard.website.trial_tables import link_choices, name_row
 
@@ -45,6 +51,7 @@ def compose_trials(material: Material) -> GridPage:
         note=_explain_squares(material, words),
         legend=SHARES,
         sections=tuple(_Grid(material, rows, shares, _show_percent(words)).list_sections()),
+        table=Link("All trials as a table (CSV)", TRIALS_TABLE),
     )
 
 

@@ -120,7 +120,7 @@ class GridSection:
 class GridPage(Page):
     """All trials at a glance: for people, or, with a way back to its page, for a submission.
 
-    ``legend`` is levels and what they stand for, lowest first.
+    ``legend`` is levels and what they stand for, lowest first; ``table`` is the same trials as data.
     """
 
     back: Link | None
@@ -128,6 +128,7 @@ class GridPage(Page):
     note: str
     legend: tuple[tuple[str, str], ...]
     sections: tuple[GridSection, ...]
+    table: Link | None = None
 
 
 @dataclass(frozen=True)

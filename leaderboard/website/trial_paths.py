@@ -5,6 +5,7 @@ import re
 from leaderboard.files import sha256_hex
 
 TRIALS_PATH = "trials/index.html"
+TRIALS_TABLE = "trials.csv"
 MAX_WORDS = 64
 N_HASH_DIGITS = 12
 

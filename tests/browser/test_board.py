@@ -4,7 +4,6 @@ import csv
 import datetime as dt
 import json
 import re
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -246,7 +245,7 @@ def test_columns_can_be_hidden(page: Page) -> None:
     assert page.locator("[aria-sort]").get_attribute("data-key") == "rank"
     page.get_by_label("Agreement with people: Human r").check()
     assert page.locator("th[data-key]").count() == 10
-    assert page.locator("tr#good td[data-value]:visible").count() == 6
+    assert page.locator("tr#good td[data-exact]:visible").count() == 6
 
 
 def test_the_address_survives_reload_and_history(page: Page) -> None:
@@ -429,15 +428,31 @@ def test_controls_have_names(page: Page) -> None:
 
 
 def test_a_screen_reader_hears_what_is_below_a_number(page: Page) -> None:
-    """Words that nobody sees stand before each interval and rank set, to tell them from the number above."""
+    """Each heading says that rank sets or intervals follow, and a cell gives one thing after the other."""
     nodes = page.context.new_cdp_session(page).send("Accessibility.getFullAXTree")["nodes"]
-    texts = [node["name"]["value"].strip() for node in nodes if node["role"]["value"] == "StaticText"]
-    shown_below = page.locator("tr#good .interval")
-    below = shown_below.evaluate_all("all => all.map(one => one.firstChild.data.trim())")
-    assert len(below) == 9
-    for index, text in enumerate(below):
-        word = "interval" if index else "rank set"
-        assert (word, text) in list(pairwise(texts)), text
+    headings = [node["name"]["value"] for node in nodes if node["role"]["value"] == "columnheader"]
+    assert "95 % set" in headings[0]
+    assert len([heading for heading in headings if "with 95 % interval" in heading]) == 9
+    cells = page.locator("tr#good :is(.rank, .number:has(.interval))")
+    for cell in cells.evaluate_all("all => all.map(one => one.innerText)"):
+        assert re.match(r"\S+\n\S+", cell), cell
+
+
+def test_pointing_at_a_number_tells_it_exactly(page: Page, rows: list[dict[str, Any]]) -> None:
+    """Value and interval with all digits, and how many resamples have no value."""
+    cell = page.locator("tr#good td.number").nth(3)
+    assert cell.get_attribute("title") is None
+    cell.hover()
+    (good,) = [row for row in rows if row["slug"] == "good"]
+    score = good["result"]["scores"]["overall"]["easy"]["accuracy"]
+    exact = [f"{score[part]:.6f}" for part in ("value", "low", "high")]
+    assert cell.get_attribute("title") == (
+        f"{exact[0]}, 95 % interval {exact[1]} to {exact[2]}, "
+        f"{score['undefined_resamples']} resamples without a value"
+    )
+    absent = page.locator("tr#part td.number").first
+    absent.hover()
+    assert absent.get_attribute("title") is None
 
 
 @pytest.mark.parametrize("width", [1280, 360])
@@ -529,11 +544,11 @@ def test_other_tracks_have_controls_too(visit: Visit) -> None:
 
 
 def test_paper_has_no_controls(page: Page) -> None:
-    """Printed, the view is as chosen, without anything to press."""
+    """Printed, the view is as chosen and says how much of all it is, without anything to press."""
     page.get_by_label("Find").fill("zebra")
     page.emulate_media(media="print")
     assert page.locator("button:visible, input:visible, select:visible, summary:visible").count() == 0
-    assert page.locator(".controls").is_hidden()
+    assert page.locator(".controls").inner_text() == f"1 of {N_SUBMISSIONS} submissions"
     assert shown(page) == ["system-0"]
 
 

@@ -219,6 +219,20 @@ def test_the_view_has_all_rows(page: Page, tmp_path: Path, rows: tuple[BoardRow,
     assert len(lines) == ALL + 3
 
 
+def test_paper_says_which_rows_it_has(page: Page) -> None:
+    """Printed, a part names its rows, and where all of them are."""
+    line = page.locator(".controls")
+    page.get_by_label("Rows", exact=True).select_option("5")
+    page.emulate_media(media="print")
+    rows = f"Here: rows 401 to {ALL} of {ALL}. All are in leaderboard.csv."
+    assert line.inner_text() == f"All {ALL} submissions\n\n{rows}"
+    page.emulate_media(media="screen")
+    page.get_by_label("Find").fill("copy-40")
+    page.emulate_media(media="print")
+    assert line.inner_text() == f"10 of {ALL} submissions"
+    assert page.locator(".turner").is_hidden()
+
+
 def test_partial_submissions_come_last(page: Page) -> None:
     """They follow the last ranked row, in a body of their own."""
     page.get_by_label("Rows", exact=True).select_option("5")
@@ -234,9 +248,12 @@ def test_without_javascript_all_rows_are_on_pages(
     page = visit.open("index.html")
     found, values = [], []
     for link in ("rows 1 to 200", "rows 201 to 400", f"rows 401 to {N_ROWS}"):
-        page.get_by_role("link", name=link, exact=True).click()
+        with page.expect_navigation():
+            page.get_by_role("link", name=link, exact=True).click()
         found += ranked(page)
-        values += page.locator("tbody.ranked .score").all_inner_texts()
+        values += page.locator("tbody.ranked td[data-exact]").evaluate_all(
+            "cells => cells.map(cell => cell.firstChild.data)"
+        )
         assert page.get_by_role("link", name=link, exact=True).get_attribute("aria-current") == "page"
         assert page.locator("button, input, select").count() == 0
     assert found == [row.slug for row in rows]

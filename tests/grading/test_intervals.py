@@ -280,6 +280,20 @@ def test_a_subset_is_scored_the_same_without_the_others(subsets: tuple[str, ...]
         np.testing.assert_array_equal(values, whole.resampled[key])
 
 
+@pytest.mark.parametrize("metrics", [("accuracy", "human_r"), ("auc", "cohen_kappa")], ids=str)
+def test_a_metric_is_scored_the_same_without_the_others(metrics: tuple[str, ...]) -> None:
+    """Who wants only some gets these, and the p-value that pools properties, with the same resamples."""
+    yardstick, o = Yardstick.of(REFERENCE), observe(REFERENCE)
+    whole = tally_scores(o, EVERYTHING, yardstick, subsets=("all",))
+    part = tally_scores(o, EVERYTHING, yardstick, subsets=("all",), metrics=metrics)
+    assert {metric for _, _, metric in part.resampled} == set(metrics)
+    for scope, scores in part.estimates.items():
+        assert set(metrics) <= scores["all"].keys() <= {*metrics, "accuracy_p"}
+        assert scores["all"] == {metric: whole.estimates[scope]["all"][metric] for metric in scores["all"]}
+    for key, values in part.resampled.items():
+        np.testing.assert_array_equal(values, whole.resampled[key])
+
+
 def test_a_reference_too_large_for_float32_gives_the_same_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is summed in float32 while that is exact is summed in float64 beyond."""
     small = tally_scores(observe(REFERENCE), EVERYTHING, Yardstick.of(REFERENCE)).resampled

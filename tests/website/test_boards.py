@@ -13,6 +13,7 @@ from leaderboard.website.board_pages import BoardPage
 from leaderboard.website.boards import compose_board
 from leaderboard.website.material import Material
 from leaderboard.website.numbers import ABSENT, EN_DASH, MINUS, name_p, show_points
+from leaderboard.website.texts import Texts
 from site_builders import (
     build_entries,
     build_material,
@@ -106,11 +107,10 @@ def test_every_number_is_that_of_the_api(index: Element, files: dict[str, bytes]
 def assert_printed(cell: Element, metric: str, score: dict[str, float | None]) -> None:
     if score["value"] is None:
         assert text_of(cell).startswith(ABSENT)
-        assert cell.get("data-value") is None
+        assert cell.get("data-exact") is None
         return
-    exact = [cell.get(f"data-{part}", "nan") for part in ("value", "low", "high")]
+    exact = cell.get("data-exact", "").split()
     assert [float(number) for number in exact] == [score[part] for part in ("value", "low", "high")]
-    assert cell.get("title", "").startswith(f"{exact[0]}, 95 % interval {exact[1]} to {exact[2]}")
     low, high = re.split(f" to |{EN_DASH}", interval_of(cell))
     factor, half_a_digit = (1, 0.0005) if metric.startswith("human_r") else (100, 0.05)
     for printed, number in zip((score_of(cell), low, high), exact, strict=True):
@@ -243,7 +243,7 @@ def test_resamples_without_a_value_are_told_of(index: Element, material: Materia
     assert score is not None
     n_undefined = score.undefined_resamples
     assert n_undefined
-    assert cell.get("title", "").endswith(f", {n_undefined} resamples without a value")
+    assert cell.get("data-undefined") == str(n_undefined)
     note = f"resamples without a value are left out of the interval, {n_undefined} at most"
     assert footnote_of(cell, index) == note
     assert "some resamples left out" in text_of(cell)
@@ -265,9 +265,11 @@ def test_a_dash_tells_why_in_text_and_below_the_table(index: Element) -> None:
 
 def test_headings_say_how_much_is_behind_a_column(index: Element, material: Material) -> None:
     """Trials or pairs stand under each column's name, and they are those of the reference."""
+    below = " with 95 % interval"  # for who listens
     headings = [text_of(th) for th in index.iter("th") if "number" in th.get("class", "").split()]
+    assert all(heading.endswith(below) for heading in headings)
     easy, hard = (material.count("overall", subset).n for subset in ("easy", "hard"))
-    assert headings == [
+    assert [heading.removesuffix(below) for heading in headings] == [
         "Overall 24 trials",
         "Alpha 16 trials",
         "Beta 8 trials",
@@ -342,3 +344,13 @@ def test_a_long_board_scrolls_under_its_headings() -> None:
     )
     assert b'class="scroll boxed"' in long
     assert b'class="scroll boxed"' not in short
+
+
+def test_all_scores_and_the_citation_are_linked(material: Material, files: dict[str, bytes]) -> None:
+    """From every board; how to cite only where maintainers wrote it."""
+    links = {link.get("href") for link in parse_html(files["tracks/without/index.html"]).iter("a")}
+    assert {"../../leaderboard.csv", "../../api/leaderboard.json"} <= links
+    assert "../../about.html#citation" not in links
+    cited = replace(material, texts=Texts(citation="@misc{a,\n}"))
+    page = parse_html(render_files(cited)["index.html"])
+    assert "about.html#citation" in {link.get("href") for link in page.iter("a")}

@@ -1,9 +1,11 @@
 """From an instance on disk to a website on disk."""
 
+import fcntl
 import json
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -11,7 +13,8 @@ import pytest
 from leaderboard.errors import BrokenReferenceError, InstanceError
 from leaderboard.instance import Instance
 from leaderboard.reference import load_reference
-from leaderboard.website import build_site
+from leaderboard.website import build_site, building
+from leaderboard.website.figure_pages import PeoplePage
 from leaderboard.website.material import Material, gather, load_publications
 from site_builders import folder_files, html_files, render_files, write_instance
 
@@ -53,10 +56,12 @@ def test_the_site_has_the_files_that_others_rely_on(instance: Instance) -> None:
 
 
 def test_downloads_are_the_very_files_that_were_graded(instance: Instance) -> None:
-    """Byte for byte, and nothing else from the folder."""
+    """Byte for byte; the result is part of the file for programs, and nothing else leaves the folder."""
     files = folder_files(build_site(instance).path)
     for folder in instance.submission_dirs():
         own = folder_files(folder)
+        result = json.loads(own.pop("result.json"))
+        assert json.loads(files[f"api/submissions/{folder.name}.json"])["result"] == result
         offered = {
             path.rpartition("/")[2]: content
             for path, content in files.items()
@@ -141,6 +146,44 @@ def test_a_broken_reference_stops_the_build(instance: Instance) -> None:
     trials.write_bytes(trials.read_bytes().replace(b",90", b",91"))
     with pytest.raises(BrokenReferenceError, match=r"Alpha\.csv"):
         build_site(instance)
+
+
+def test_a_failure_half_way_keeps_the_earlier_site(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Pages are written as they are composed, but not into the site; nothing else stays either."""
+
+    def fail(_: Material) -> PeoplePage:
+        raise InstanceError("nothing is left")
+
+    before = folder_files(build_site(instance).path)
+    monkeypatch.setattr(building, "compose_people", fail)
+    with pytest.raises(InstanceError, match="nothing is left"):
+        build_site(instance, commit="0" * 40)
+    assert folder_files(instance.site_dir) == {f"dist/{path}": content for path, content in before.items()}
+
+
+def test_two_builds_at_once_do_not_meet(instance: Instance) -> None:
+    """The second waits for the first, and finds that nothing is left to do."""
+    with ThreadPoolExecutor(2) as pool:
+        reports = list(pool.map(build_site, [instance, instance]))
+    assert sorted(report.was_current for report in reports) == [False, True]
+    assert {report.n_pages for report in reports} == {48}
+
+
+def test_leftovers_are_looked_for_while_nobody_else_builds(
+    instance: Instance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A folder that was just made has no lock yet, and would be taken for a leftover."""
+
+    def look(folder: Path) -> None:
+        descriptor = os.open(folder.parent, os.O_RDONLY)
+        with pytest.raises(BlockingIOError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        os.close(descriptor)
+
+    monkeypatch.setattr(building, "remove_leftovers", look)
+    assert build_site(instance).path == instance.dist_dir
 
 
 def test_a_foreign_folder_is_refused_before_any_work(instance: Instance, tmp_path: Path) -> None:

@@ -7,8 +7,8 @@ import json
 import pytest
 
 from builders import build_reference
-from leaderboard.grading import METRICS, SUBSETS
-from leaderboard.website.exports import reference_data, render_csv
+from leaderboard.grading import METRICS, SUBSETS, result_bytes
+from leaderboard.website.exports import reference_data, render_csv, render_trials
 from leaderboard.website.material import Material
 from site_builders import HOSTILE_NAME, HOSTILE_TEAM, build_material
 
@@ -77,13 +77,42 @@ def test_the_table_says_that_the_reference_is_synthetic(rows: dict[str, dict[str
     assert {row["reference"] for row in rows.values()} == {"synthetic"}
 
 
+def test_every_trial_has_a_row(files: dict[str, bytes], material: Material) -> None:
+    """In the reference's order, numbered, with what it is and how many of how many people said YES."""
+    reference = material.reference
+    rows = list(csv.DictReader(io.StringIO(files["trials.csv"].decode())))
+    assert [row["trial_id"] for row in rows] == list(reference.trial_ids)
+    assert [row["trial"] for row in rows] == [str(number + 1) for number in range(len(rows))]
+    assert [row["pair_id"] for row in rows] == [reference.pair_ids[pair] for pair in reference.pairs]
+    assert [int(row["label"]) for row in rows] == reference.labels.tolist()
+    assert reference.people is not None
+    assert [int(row["people"]) for row in rows] == reference.people.n.tolist()
+    assert [int(row["people_yes"]) for row in rows] == reference.people.n_yes.tolist()
+    assert (rows[0]["property"], rows[0]["scenario"]) == ("Alpha", "alpha_one")
+
+
+def test_without_people_trials_have_no_counts() -> None:
+    """The columns stay, empty."""
+    table = render_trials(build_reference(n_people=0))
+    assert {tuple(row.split(",")[-2:]) for row in table.splitlines()[1:]} == {("", "")}
+
+
+def test_json_has_no_blanks(files: dict[str, bytes]) -> None:
+    """But for a line of its own for each row of a board."""
+    content = files["api/leaderboard.json"].decode()
+    rows = sum(len(track["rows"]) for track in json.loads(content)["tracks"])
+    assert len(content.splitlines()) > rows
+    bare = json.dumps(json.loads(content), ensure_ascii=False, separators=(",", ":"))
+    assert content.replace("\n", "") == bare
+
+
 def test_each_submission_has_its_scores_and_its_place(files: dict[str, bytes], material: Material) -> None:
     """One file holds the metadata, the result as graded, track and rank."""
     for publication in material.publications:
         entry = publication.entry
         data = json.loads(files[f"api/submissions/{entry.slug}.json"])
         assert data["slug"] == entry.slug
-        assert data["result"] == json.loads(publication.files["result.json"])
+        assert data["result"] == json.loads(result_bytes(entry.result))
         assert data["metadata"]["submission"]["name"] == entry.metadata.submission.name
     places = {
         slug: json.loads(files[f"api/submissions/{slug}.json"]) for slug in ("good", "other-track", "oracle")

@@ -95,15 +95,16 @@ def test_no_two_figures_share_a_file(material: Material) -> None:
 
 def test_an_svg_stands_alone(exported: dict[str, bytes]) -> None:
     """Literal colours, one font by name with its like, title and description; no variable, script or link."""
-    for path, content in exported.items():
-        if path.endswith(".svg"):
-            root = fromstring(content.decode())  # noqa: S314 - our own figure
-            assert root.tag == f"{SVG}svg"
-            assert [child.tag for child in root][:2] == [f"{SVG}title", f"{SVG}desc"], path
-            assert root.get("font-family") == "Liberation Sans, Arial, Helvetica, sans-serif"
-            assert not re.search(rb"var\(|currentColor|system-ui|<script|<style|href=|url\(", content), path
-            colours = {e.get(name) for e in root.iter() for name in ("fill", "stroke")} - {None, "none"}
-            assert colours <= {getattr(ON_THEIR_OWN, field.name) for field in fields(Palette)}, path
+    drawings = {path: content for path, content in exported.items() if path.endswith(".svg")}
+    assert drawings
+    for path, content in drawings.items():
+        root = fromstring(content.decode())  # noqa: S314 - our own figure
+        assert root.tag == f"{SVG}svg"
+        assert [child.tag for child in root][:2] == [f"{SVG}title", f"{SVG}desc"], path
+        assert root.get("font-family") == "Liberation Sans, Arial, Helvetica, sans-serif"
+        assert not re.search(rb"var\(|currentColor|system-ui|<script|<style|href=|url\(", content), path
+        colours = {e.get(name) for e in root.iter() for name in ("fill", "stroke")} - {None, "none"}
+        assert colours <= {getattr(ON_THEIR_OWN, field.name) for field in fields(Palette)}, path
 
 
 def test_an_svg_says_what_it_shows_and_from_where(exported: dict[str, bytes], material: Material) -> None:
@@ -172,19 +173,23 @@ def test_an_absent_number_has_its_reason(exported: dict[str, bytes]) -> None:
     assert all(row["why"] for row in own)
 
 
-def test_points_have_their_trials(exported: dict[str, bytes], material: Material) -> None:
-    """Of each trial that people judged: its id, label, share of people and probability."""
+def test_points_have_their_trials(
+    exported: dict[str, bytes], files: dict[str, bytes], material: Material
+) -> None:
+    """Of each trial that people judged: its number in the table of trials, label, share and probability."""
     people = material.reference.people
     assert people is not None
-    rows = {row["trial_id"]: row for row in read_table(exported["submissions/good/figures/scatter.csv"])}
+    rows = {row["trial"]: row for row in read_table(exported["submissions/good/figures/scatter.csv"])}
     assert len(rows) == int((people.n > 0).sum())
-    for index, trial_id in enumerate(material.reference.trial_ids):
+    for trial in read_table(files["trials.csv"]):
+        index = material.reference.trial_index[trial["trial_id"]]
         if people.n[index]:
             label = int(material.reference.labels[index])
-            assert rows[trial_id]["label"] == str(label)
-            assert float(rows[trial_id]["probability"]) == (0.8 if label else 0.3)
+            row = rows[trial["trial"]]
+            assert row["label"] == trial["label"] == str(label)
+            assert float(row["probability"]) == (0.8 if label else 0.3)
             share = people.n_yes[index] / people.n[index]
-            assert float(rows[trial_id]["people_yes"]) == pytest.approx(share, abs=1e-6)
+            assert float(row["people_yes"]) == pytest.approx(share, abs=1e-6)
 
 
 def test_parts_and_bins_add_up(exported: dict[str, bytes], material: Material) -> None:

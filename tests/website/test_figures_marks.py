@@ -69,6 +69,14 @@ def test_outlines_are_svg_paths() -> None:
     assert Point(5, 6.5, "diamond").outline.startswith("M5 6.5m0-4.4")
 
 
+def test_what_has_no_title_is_one_path() -> None:
+    """Lines and boxes of one ink; a box with a title stays an element of its own, which can be pointed at."""
+    sketch = Sketch()
+    sketch.add(palette.BAR, Line(0, 1, 2, 1), Box(1, 2, 3.5, 4), Box(5, 6, 7, 8, title="words"))
+    (layer,) = sketch.finish("key", "Title", caption="", description="", numbers={}).layers
+    assert layer.outline == "M0 1L2 1M1 2h3.5v4h-3.5z"
+
+
 def test_an_ink_takes_its_colours_from_the_palette() -> None:
     """The same figure can be printed in other colours; what is as usual is not said."""
     ink = Ink(1, fill="model", stroke="paper", thickness=2, dash="3 3", opacity=0.5)
@@ -79,7 +87,8 @@ def test_an_ink_takes_its_colours_from_the_palette() -> None:
         "stroke": "#paper",
         "stroke-width": "2",
         "stroke-dasharray": "3 3",
-        "opacity": "0.5",
+        "fill-opacity": "0.5",
+        "stroke-opacity": "0.5",
     }
     assert dict(ink_of_words.attributes(literal)) == {
         "font-size": "12",

@@ -1,5 +1,6 @@
 """How wide words are, as far as that can be told without their font."""
 
+from functools import cache
 from unicodedata import combining, east_asian_width
 
 ELLIPSIS = "\N{HORIZONTAL ELLIPSIS}"
@@ -46,6 +47,7 @@ def wrap(text: str, width: float, size: float) -> list[str]:
     return lines
 
 
+@cache
 def _width_of(letter: str) -> float:
     if combining(letter):
         return 0

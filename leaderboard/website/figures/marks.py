@@ -118,6 +118,15 @@ class Layer:
     paths: tuple[Cloud | Steps, ...]
     texts: tuple[Text, ...]
 
+    @property
+    def outline(self) -> str:
+        """Its lines and the boxes that have no title, as one SVG path: half as long as one for each."""
+        lines = (f"M{line.x1} {line.y1}L{line.x2} {line.y2}" for line in self.lines)
+        boxes = (
+            f"M{box.x} {box.y}h{box.width}v{box.height}h-{box.width}z" for box in self.boxes if not box.title
+        )
+        return "".join((*lines, *boxes))
+
 
 @dataclass(frozen=True)
 class Drawing:

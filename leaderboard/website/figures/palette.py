@@ -89,7 +89,9 @@ def _list_attributes(ink: Ink, palette: Palette) -> tuple[tuple[str, str], ...]:
         "stroke-width": f"{ink.thickness:g}" if ink.stroke and ink.thickness != 1 else "",
         "stroke-dasharray": ink.dash,
         "stroke-linecap": "round" if ink.is_round else "",
-        "opacity": f"{ink.opacity:g}" if ink.opacity < 1 else "",
+        # Not that of the group: a picture would have to be drawn a second time for each of these.
+        "fill-opacity": f"{ink.opacity:g}" if ink.fill and ink.opacity < 1 else "",
+        "stroke-opacity": f"{ink.opacity:g}" if ink.stroke and ink.opacity < 1 else "",
         "font-size": f"{ink.size:g}" if ink.size else "",
         "font-weight": "bold" if ink.is_bold else "",
         "paint-order": "stroke" if ink.has_halo else "",

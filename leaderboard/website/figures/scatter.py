@@ -1,6 +1,6 @@
 """Model against people: one point per trial."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +27,8 @@ class Scatter:
 
     Attributes
     ----------
-    trial_ids, shares, probabilities, labels : (n_trials,)
-        Of each trial its id, the share of people who said YES, P(YES) of the submission, and the label.
+    trials, shares, probabilities, labels : (n_trials,)
+        Of each trial its number, the share of people who said YES, P(YES) of the submission, and the label.
     statement
         How much they agree.
     """
@@ -37,7 +37,7 @@ class Scatter:
     title: str
     caption: str
     statement: str
-    trial_ids: Sequence[str]
+    trials: NDArray[np.int64]
     shares: NDArray[np.float64]
     probabilities: NDArray[np.float64]
     labels: NDArray[np.int64]
@@ -69,7 +69,7 @@ def draw_scatter(scatter: Scatter) -> Drawing:
         caption=scatter.caption,
         description=description,
         numbers={
-            "trial_id": scatter.trial_ids,
+            "trial": scatter.trials,
             "label": scatter.labels,
             "people_yes": scatter.shares,
             "probability": scatter.probabilities,

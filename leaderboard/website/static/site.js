@@ -1,6 +1,7 @@
-/* What a board can do with JavaScript: sort, find, choose columns, compare two, and download what is shown.
-   Everything to read is in the page without it, or in further pages, whose rows are in "boardRows" then. DataTables sorts, filters and hides columns; the state is in
-   the address, and only what this page knows is taken from there. */
+/* What a board can do with JavaScript: sort, find, choose columns and what to compare, save the view.
+   Everything to read is in the page without it, or in further pages, whose rows are in "boardRows" then.
+   DataTables sorts, filters and hides columns; the state is in the address, and only what this page knows is
+   taken from there. */
 "use strict";
 
 (() => {
@@ -11,68 +12,52 @@
   const FORMULA_START = /^[=+\-@\t\r]/;
   const PART = /^[1-9]\d{0,5}$/;
   const DAY = /^\d{4}-\d{2}-\d{2}$/;
+  const FIELDS = ["text", "family", "inputs", "from", "to"];
   const SORTED_BY_RANK = Object.freeze({ key: "rank", order: "asc" });
 
   /* Making elements: text is always text, never markup. */
 
   function make(name, attributes = {}, ...children) {
     const element = document.createElement(name);
-    for (const [key, value] of Object.entries(attributes)) {
-      if (value !== null) element.setAttribute(key, value);
-    }
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
     element.append(...children);
     return element;
   }
 
-  function labelled(text, control) {
-    control.id = `board-${text.toLowerCase()}`;
-    return make("div", { class: "field" }, make("label", { for: control.id }, text), control);
-  }
+  /* Reading the table that the server wrote: rank and name stand before the groups of numbers. */
 
-  function choice(all, values) {
-    const options = values.map((value) => make("option", { value }, value));
-    return make("select", {}, make("option", { value: "" }, all), ...options);
-  }
-
-  /* Reading the table that the server wrote. */
-
-  function readColumns(table) {
-    const headings = [...table.tHead.querySelectorAll("th[data-key]")];
-    const isTop = (heading) => heading.rowSpan > 1;
-    const groups = [...table.tHead.querySelectorAll("th.group")];
-    const before = headings.filter((heading) => isTop(heading) && !heading.matches(".fact"));
-    const within = headings.filter((heading) => !isTop(heading));
-    const after = headings.filter((heading) => heading.matches(".fact"));
+  function readColumns({ tHead }) {
+    const [outer, inner] = [...tHead.rows].map((row) => [...row.querySelectorAll("[data-key]")]);
+    const groups = [...tHead.querySelectorAll(".group")];
     const groupOf = groups.flatMap((group) => Array(group.colSpan).fill(group.textContent));
-    return [...before, ...within, ...after].map((heading, index) => ({
+    return outer.toSpliced(2, 0, ...inner).map((heading, index) => ({
       index,
       heading,
-      key: heading.dataset.key,
-      first: heading.dataset.first,
+      ...heading.dataset,
       isNumber: heading.matches(".number, .rank"),
-      hasName: heading.classList.contains("name"),
+      hasName: heading.matches(".name"),
       title: (heading.querySelector("a") ?? heading.firstChild).textContent.trim(),
-      group: groupOf[within.indexOf(heading)] ?? "",
+      group: groupOf[inner.indexOf(heading)] ?? "",
     }));
   }
 
   const fold = (text) => text.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase();
 
-  function sortKey(cell, column) {
-    const text = cell.dataset.value ?? cell.dataset.place;
-    if (column.isNumber || column.hasName) return text === undefined ? null : Number(text);
-    return cell.textContent.trim() || null;
+  /* What has no value has no key either. */
+  function keyOf({ isNumber, hasName }, { exact, place } = {}, text) {
+    const number = exact?.split(" ")[0] ?? place ?? null;
+    return isNumber || hasName ? number && Number(number) : text || null;
   }
 
   function readRow(tr, columns, kind) {
+    const { id: slug, dataset: { family = "", inputs = "", date = "" } } = tr;
     const cells = [...tr.cells];
-    const name = cells[1];
-    const link = name.querySelector("a");
-    const { family = "", inputs = "", date = "" } = tr.dataset;
-    const text = fold([tr.id, name.textContent, family, inputs, date].join(" "));
-    const keys = columns.map((column) => sortKey(cells[column.index], column));
-    const exact = cells.map(({ dataset: { value = "", low = "", high = "" } }) => [value, low, high]);
-    return { tr, cells, kind, slug: tr.id, name: link.textContent, family, inputs, date, text, keys, exact };
+    const texts = cells.map((cell) => cell.textContent.trim());
+    const data = cells.map((cell) => cell.dataset);
+    const keys = columns.map((column, index) => keyOf(column, data[index], texts[index]));
+    const text = fold([slug, texts[1], family, inputs, date].join(" "));
+    const name = cells[1].querySelector("a").textContent;
+    return { tr, cells, kind, slug, name, family, inputs, date, text, keys, data };
   }
 
   function readRows(table, columns) {
@@ -84,107 +69,88 @@
 
   /* Reading the rows that are data only, and writing them as templates/board.html does. */
 
-  function showExactly(value) {
-    return typeof value === "number" ? (value / MILLION).toFixed(N_DECIMALS) : value ?? "";
+  function unpackExact(cell, row) {
+    const parts = ["value", "low", "high"].map((part) => cell[part]?.[row] ?? "");
+    const show = (part) => (typeof part === "number" ? (part / MILLION).toFixed(N_DECIMALS) : part);
+    const data = {};
+    if (parts[0] !== "") data.exact = parts.map(show).join(" ").trim();
+    if (cell.undefined?.[row]) data.undefined = cell.undefined[row];
+    return data;
   }
 
-  const unpackExact = (cell, row) => ["value", "low", "high"].map((name) => showExactly(cell[name]?.[row]));
-
-  function unpackCell(cell, row, texts) {
-    const [text, interval, remark, why] =
-      ["text", "interval", "remark", "why"].map((name) => texts[cell[name]?.[row] ?? 0]);
-    const [nUndefined, note] = [cell.undefined?.[row] ?? 0, cell.note?.[row] ?? 0];
-    return { text, interval, remark, why, nUndefined, note, exact: unpackExact(cell, row) };
-  }
-
-  function unpackRow(data, row, columns) {
+  function unpackRow(rows, row, columns) {
     const [slug, name, family, inputs, date, ranks] =
-      ["slug", "name", "family", "inputs", "date", "ranks"].map((key) => data.texts[data[key][row]]);
+      ["slug", "name", "family", "inputs", "date", "ranks"].map((key) => rows.texts[rows[key][row]]);
     const [badges, details, facts] =
-      ["badges", "details", "facts"].map((key) => data[key][row].map((place) => data.texts[place]));
-    const rank = data.rank[row] || null;
-    const exact = [[], [], ...data.cells.map((cell) => unpackExact(cell, row))];
-    const keys = columns.map(({ index, isNumber, hasName }) => {
-      if (hasName) return data.place[row];
-      if (index === 0) return rank;
-      if (isNumber) return exact[index][0] === "" ? null : Number(exact[index][0]);
-      return facts[index - exact.length] || null;
-    });
+      ["badges", "details", "facts"].map((key) => rows[key][row].map((place) => rows.texts[place]));
+    const numbers = rows.cells.map((cell) => unpackExact(cell, row));
+    const data = [{ place: rows.rank[row] }, { place: rows.place[row] }, ...numbers];
+    const keys = columns.map((column, index) => keyOf(column, data[index], facts[index - data.length]));
     const text = fold([slug, name, ...badges, ...details, family, inputs, date].join(" "));
-    const print = () => {
-      const numbers = data.cells.map((cell) => unpackCell(cell, row, data.texts));
-      return { rank, ranks, badges, details, numbers, facts };
+    const fill = (cells, up) => {
+      cells.forEach((cell, index) => Object.assign(cell.dataset, data[index]));
+      const [rankCell, nameCell, ...others] = cells;
+      fillRank(rankCell, rows.rank[row], ranks);
+      fillName(nameCell, `${up}submissions/${slug}/index.html`, name, badges, details);
+      for (const cell of rows.cells) fillNumber(others.shift(), cell, row, rows.texts);
+      for (const fact of facts) fillCell(others.shift(), "fact", fact);
     };
-    return { kind: "ranked", slug, name, family, inputs, date, text, keys, exact, print };
+    return { kind: "ranked", slug, name, family, inputs, date, text, keys, data, fill };
   }
 
-  function unpackRows(data, columns) {
-    return data ? data.slug.map((_, row) => unpackRow(data, row, columns)) : [];
-  }
-
-  function describeExactly({ exact: [value, low, high], nUndefined }) {
-    const parts = [value];
-    if (low) parts.push(`95 % interval ${low} to ${high}`);
-    if (nUndefined) parts.push(`${nUndefined.toLocaleString("en-US")} resamples without a value`);
-    return parts.join(", ");
+  function unpackRows(rows, columns) {
+    return rows ? rows.slug.map((_, row) => unpackRow(rows, row, columns)) : [];
   }
 
   const small = (name, ...content) => make("small", { class: name }, ...content);
   const unseen = (text) => make("span", { class: "unseen" }, text);
   const mark = (note) => make("sup", { "aria-hidden": "true" }, note);
 
-  function fillNumber(td, cell) {
-    const { text, interval, remark, why, note, exact: [value, low, high] } = cell;
-    td.className = why ? "number absent" : "number";
-    if (why) {
-      td.append(make("abbr", { title: why }, text), mark(note), unseen(` ${why}`));
-      return;
-    }
-    Object.assign(td.dataset, low ? { value, low, high } : { value });
-    td.title = describeExactly(cell);
-    td.append(make("span", { class: "score" }, text));
-    const noted = note ? [mark(note), unseen(" some resamples left out")] : [];
-    if (interval) td.append(small("interval", ` ${interval}`, ...noted));
-    if (remark) td.append(small("remark", ` ${remark}`));
+  function fillCell(cell, name, ...content) {
+    cell.className = name;
+    cell.append(...content);
   }
 
-  function fillRank(td, { rank, ranks }) {
-    td.className = "rank";
-    if (rank) td.dataset.place = rank;
-    td.append(String(rank ?? ""));
-    if (ranks) td.append(small("interval", ` ${ranks}`));
+  function fillRank(td, rank, ranks) {
+    fillCell(td, "rank", rank);
+    if (ranks) td.append(small("interval", `\n${ranks}`));
   }
 
-  function fillName(th, row, { badges, details }, up) {
-    th.className = "name";
+  function fillName(th, href, name, badges, details) {
     th.scope = "row";
-    th.dataset.place = row.keys[1];
-    th.append(make("a", { href: `${up}submissions/${row.slug}/index.html` }, row.name));
+    fillCell(th, "name", make("a", { href }, name));
     for (const badge of badges) th.append(" ", make("span", { class: "badge" }, badge));
     for (const detail of details) th.append(" ", make("small", {}, detail));
   }
 
-  function fillRow(row, up) {
-    const printed = row.print();
-    const [rank, name, ...others] = row.cells;
-    fillRank(rank, printed);
-    fillName(name, row, printed, up);
-    printed.numbers.forEach((number, index) => fillNumber(others[index], number));
-    printed.facts.forEach((fact, index) => {
-      const td = others[printed.numbers.length + index];
-      td.className = "fact";
-      td.append(fact);
-    });
+  function fillNumber(td, cell, row, texts) {
+    const [text, interval, remark, why] =
+      ["text", "interval", "remark", "why"].map((name) => texts[cell[name]?.[row] ?? 0]);
+    const note = cell.note?.[row];
+    if (why) {
+      fillCell(td, "number absent", make("abbr", { title: why }, text), mark(note), unseen(` ${why}`));
+      return;
+    }
+    const noted = note ? [mark(note), unseen(" some resamples left out")] : [];
+    fillCell(td, "number", text);
+    if (interval) td.append(small("interval", `\n${interval}`, ...noted));
+    if (remark) td.append(small("remark", `\n${remark}`));
+  }
+
+  /* The exact value, for a pointer that rests on it: in every cell beforehand they made a fourth of the page. */
+  function nameExactly({ target }) {
+    const cell = target.closest("td[data-exact]");
+    if (!cell || cell.title) return;
+    const { exact, undefined: nUndefined } = cell.dataset;
+    const [value, low, high] = exact.split(" ");
+    const interval = low ? `, 95 % interval ${low} to ${high}` : "";
+    const n = Number(nUndefined ?? 0).toLocaleString("en-US");
+    cell.title = value + interval + (nUndefined ? `, ${n} resamples without a value` : "");
   }
 
   const distinct = (rows, name) => [...new Set(rows.map((row) => row[name]).filter(Boolean))].sort();
 
   /* The state, and how it is written into the address. */
-
-  function emptyState() {
-    const nothing = { text: "", family: "", inputs: "", from: "", to: "" };
-    return { ...nothing, hidden: [], chosen: [], sort: SORTED_BY_RANK, part: 1 };
-  }
 
   function isDay(text) {
     return DAY.test(text) && !Number.isNaN(Date.parse(text));
@@ -208,7 +174,7 @@
     const sort = parseSort(said.get("sort") ?? "", known.columns);
     return {
       text: (said.get("find") ?? "").slice(0, MAX_TEXT),
-      family: one("family", (value) => known.families.includes(value)),
+      family: one("family", (value) => known.family.includes(value)),
       inputs: one("inputs", (value) => known.inputs.includes(value)),
       from: one("from", isDay),
       to: one("to", isDay),
@@ -272,7 +238,10 @@
         row.kind,
         row.keys[0] ?? "",
         ...texts.map((text) => quoteCell(text, { isText: true })),
-        ...numbers.flatMap(({ index }) => row.exact[index]),
+        ...numbers.flatMap(({ index }) => {
+          const [value, low = "", high = ""] = (row.data[index].exact ?? "").split(" ");
+          return [value, low, high];
+        }),
       ].join(",");
     });
     return [header.map((name) => quoteCell(name)).join(","), ...lines, ""].join("\n");
@@ -297,10 +266,11 @@
       this.pinned = this.all.filter(isPinned);
       this.rows = this.all.filter((row) => !isPinned(row));
       if (!this.rows.length) return;
+      this.makeControls(place);
       this.known = this.listKnown();
+      this.offerChoices();
       this.state = parseState(location.search, this.known);
       this.pairs = new Set(table.dataset.pairs.split(" "));
-      this.makeControls(place);
       this.makeTurner();
       this.markHeadings();
       this.markRows();
@@ -310,79 +280,49 @@
       this.returnToTarget();
     }
 
+    makeControls(place) {
+      const find = (found) => place.querySelector(found);
+      place.replaceChildren(find("template").content);
+      this.fields = Object.fromEntries(FIELDS.map((name) => [name, find(`[name=${name}]`)]));
+      this.boxes = [...place.querySelectorAll("[type=checkbox]")];
+      [this.menu, this.csv, this.count, this.paper, this.reset, this.tray] =
+        [".menu", ".csv", ".count", ".paper", ".reset", ".tray"].map(find);
+      this.foldWhereNarrow(find(".finder"));
+    }
+
     listKnown() {
-      const hideable = this.columns.filter((column) => column.key !== "rank" && !column.hasName);
       return {
         columns: this.columns,
-        hideable: hideable.map((column) => column.key),
-        families: distinct(this.rows, "family"),
+        hideable: this.boxes.map((box) => box.value),
+        family: distinct(this.rows, "family"),
         inputs: distinct(this.rows, "inputs"),
         slugs: this.all.map((row) => row.slug).filter(Boolean),
         nParts: this.more.length ? Math.ceil(this.rows.length / ROWS_A_PAGE) : 1,
       };
     }
 
-    makeControls(place) {
-      const { families, inputs } = this.known;
-      this.fields = {
-        text: make("input", { type: "search", maxlength: MAX_TEXT, autocomplete: "off", spellcheck: "false" }),
-        family: choice("all", families),
-        inputs: choice("all", inputs),
-        from: make("input", { type: "date" }),
-        to: make("input", { type: "date" }),
-      };
-      this.count = make("output", { class: "count", "aria-live": "polite" });
-      this.reset = make("button", { type: "button" }, "Show all");
-      this.tray = make("p", { class: "tray", "aria-live": "polite" });
-      this.csv = make("button", { type: "button" }, "CSV of this view");
-      place.setAttribute("role", "group");
-      place.setAttribute("aria-label", "Rows and columns");
-      const fields = make("div", { class: "fields" },
-        labelled("Find", this.fields.text),
-        labelled("Family", this.fields.family),
-        labelled("Inputs", this.fields.inputs),
-        labelled("From", this.fields.from),
-        labelled("To", this.fields.to),
-        this.makeMenu(),
-        this.csv);
-      const summary = make("summary", {}, "Find, filter, choose columns");
-      const finder = make("details", { class: "finder" }, summary, fields);
-      place.append(finder, make("div", { class: "said" }, this.count, this.reset, this.tray));
-      this.foldWhereNarrow(finder);
+    offerChoices() {
+      for (const name of ["family", "inputs"]) {
+        this.fields[name].append(...this.known[name].map((value) => make("option", { value }, value)));
+      }
     }
 
     foldWhereNarrow(finder) {
       const narrow = matchMedia("(max-width: 70rem)");
-      const fold = () => { finder.open = !narrow.matches; };
-      narrow.addEventListener("change", fold);
-      fold();
+      const open = () => { finder.open = !narrow.matches; };
+      narrow.addEventListener("change", open);
+      open();
     }
 
     /* In place of the links to further pages, whose rows are all here. */
     makeTurner() {
       if (!this.more.length) return;
-      this.turner = document.querySelector("nav.parts");
-      this.back = make("button", { type: "button" }, "Previous");
-      this.next = make("button", { type: "button" }, "Next");
-      this.parts = make("select", {});
-      const parts = make("div", { class: "turner" }, labelled("Rows", this.parts), this.back, this.next);
-      this.turner.replaceChildren(parts);
+      this.turner = document.querySelector(".parts");
+      this.turner.replaceChildren(this.turner.querySelector("template").content);
+      [this.parts, this.back, this.next] = this.turner.querySelectorAll("select, button");
       this.back.addEventListener("click", () => this.turnTo(this.state.part - 1));
       this.next.addEventListener("click", () => this.turnTo(this.state.part + 1));
       this.parts.addEventListener("input", () => this.turnTo(Number(this.parts.value)));
-    }
-
-    makeMenu() {
-      const hideable = this.columns.filter((column) => this.known.hideable.includes(column.key));
-      this.boxes = hideable.map((column) => {
-        const box = make("input", { type: "checkbox", value: column.key });
-        const title = column.group ? `${column.group}: ${column.title}` : column.title;
-        return [box, make("label", { class: "option" }, box, make("span", {}, title))];
-      });
-      const list = make("div", { class: "list", role: "group", "aria-label": "Columns to show" });
-      list.append(...this.boxes.map(([, label]) => label));
-      this.menu = make("details", { class: "menu" }, make("summary", {}, "Columns"), list);
-      return this.menu;
     }
 
     markHeadings() {
@@ -409,7 +349,7 @@
       Object.assign(row, { tr, cells });
       tr.id = row.slug;
       Object.assign(tr.dataset, { family: row.family, inputs: row.inputs, date: row.date });
-      fillRow(row, this.table.dataset.up);
+      row.fill(cells, this.table.dataset.up);
       this.markRow(row);
       row.box.checked = this.state.chosen.includes(row.slug);
     }
@@ -452,14 +392,12 @@
         },
         layout: { topStart: null, topEnd: null, bottomStart: null, bottomEnd: null },
         ordering: { handler: false, indicators: false },
-        orderMulti: false,
         orderClasses: false,
         orderDescReverse: false,
         typeDetect: false,
-        order: [[0, "asc"]],
         columns: this.columns.map(({ hasName }) => (
           { type: "board", orderDataType: "board", searchable: false, cellType: hasName ? "th" : "td" })),
-        language: { zeroRecords: "No submission fits.", emptyTable: "No submission fits." },
+        language: { zeroRecords: "No submission fits." },
         on: { draw: () => this.place() },
       };
     }
@@ -467,10 +405,9 @@
     /* Partial submissions are sorted and filtered with the others, and stand in their own body. */
     place() {
       if (!this.partial) return;
-      const shown = this.rows.filter(({ kind, tr }) => kind === "partial" && tr.parentNode === this.main);
-      shown.sort((a, b) => (a.tr.compareDocumentPosition(b.tr) & Node.DOCUMENT_POSITION_FOLLOWING ? -1 : 1));
+      const shown = [...this.main.rows].filter(({ id }) => this.bySlug.get(id)?.kind === "partial");
       const divider = this.partial.querySelector(".divider");
-      this.partial.replaceChildren(divider, ...shown.map((row) => row.tr));
+      this.partial.replaceChildren(divider, ...shown);
       this.partial.hidden = !shown.length;
       const hasRanked = this.data && this.shownRows().some(({ kind }) => kind === "ranked");
       if (!this.main.rows.length && !hasRanked) this.main.append(this.note ?? this.makeNote());
@@ -491,7 +428,7 @@
       for (const [name, field] of Object.entries(this.fields)) {
         if (field.value !== state[name]) field.value = state[name];
       }
-      for (const [box] of this.boxes) box.checked = !state.hidden.includes(box.value);
+      for (const box of this.boxes) box.checked = !state.hidden.includes(box.value);
       this.hideColumns();
       const matches = matcher(state);
       data.search.fixed("board", (_, __, index) => matches(this.rows[index]));
@@ -521,6 +458,8 @@
       this.back.setAttribute("aria-disabled", part === 1);
       this.next.setAttribute("aria-disabled", part === nParts);
       this.turner.hidden = nParts === 1;
+      const rows = this.parts.selectedOptions[0].text;
+      this.paper.textContent = nParts > 1 ? `Here: rows ${rows} of ${n}. All are in leaderboard.csv.` : "";
     }
 
     turnTo(part) {
@@ -555,11 +494,10 @@
     }
 
     tell() {
-      const { text, family, inputs, from, to } = this.state;
       const [n, all] = [this.shownRows().length, this.rows.length];
       const what = all === 1 ? "submission" : "submissions";
       this.count.value = n === all ? `All ${all} ${what}` : `${n} of ${all} ${what}`;
-      this.reset.hidden = ![text, family, inputs, from, to].some(Boolean);
+      this.reset.hidden = FIELDS.every((name) => !this.state[name]);
     }
 
     showChosen() {
@@ -606,12 +544,12 @@
         const kind = field.matches("input") ? name : "";
         field.addEventListener("input", () => this.change({ [name]: field.value.slice(0, MAX_TEXT) }, kind));
       }
-      for (const [box] of this.boxes) box.addEventListener("change", () => this.chooseColumns());
+      for (const box of this.boxes) box.addEventListener("change", () => this.chooseColumns());
       this.table.addEventListener("change", ({ target }) => {
         if (target.matches(".choose")) this.choose(target.closest("tr").id, target.checked);
       });
       this.reset.addEventListener("click", () => {
-        this.change({ text: "", family: "", inputs: "", from: "", to: "" });
+        this.change(Object.fromEntries(FIELDS.map((name) => [name, ""])));
         this.fields.text.focus();
       });
       this.csv.addEventListener("click", () => this.save());
@@ -642,7 +580,7 @@
     }
 
     chooseColumns() {
-      const hidden = this.boxes.filter(([box]) => !box.checked).map(([box]) => box.value);
+      const hidden = this.boxes.filter((box) => !box.checked).map((box) => box.value);
       const sort = hidden.includes(this.state.sort.key) ? SORTED_BY_RANK : this.state.sort;
       this.change({ hidden, sort });
     }
@@ -679,6 +617,8 @@
     }
   }
 
+  const table = document.querySelector("table.board");
+  table.addEventListener("mouseover", nameExactly);
   const place = document.querySelector(".controls");
-  if (place && window.DataTable) new Board(document.querySelector("table.board"), place);
+  if (place && window.DataTable) new Board(table, place);
 })();
