@@ -17,6 +17,7 @@ RESULT_FILE = "result.json"
 LEDGER_FILE = "ledger.csv"
 ABOUT_FILE = "about.md"
 CITATION_FILE = "citation.bib"
+SITE_FILE = "site.toml"
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,11 @@ class Instance:
     def site_dir(self) -> Path:
         """The folder of the website's own texts and of its output."""
         return self.root / "site"
+
+    @property
+    def site_file(self) -> Path:
+        """What the maintainers of the website set for it."""
+        return self.site_dir / SITE_FILE
 
     def content_file(self, name: str) -> Path:
         """A text that the maintainers of the website write."""

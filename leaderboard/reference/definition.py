@@ -3,7 +3,6 @@
 import json
 import re
 import tomllib
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TypeVar
 
@@ -20,6 +19,7 @@ from leaderboard.instance import (
     Instance,
 )
 from leaderboard.models import Benchmark, Errata, Manifest
+from leaderboard.models.faults import describe_faults
 from leaderboard.problems import Problems
 
 SIZE_LIMIT = 200_000_000
@@ -27,7 +27,6 @@ CHECK_HINT = "leaderboard reference check"
 SEAL_HINT = "if the change is meant: leaderboard reference seal --kind official|synthetic"
 
 _HUMAN_FILES = (HUMAN_TRIALS_FILE, HUMAN_RESPONSES_FILE)
-_PLAIN_WORDS = {"missing": "is missing", "extra_forbidden": "is not a known key"}
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -113,19 +112,9 @@ def _validate(model: type[Model], value: object, code: str, name: str, problems:
     try:
         return model.model_validate(value)
     except ValidationError as error:
-        for fault in error.errors(include_url=False, include_context=False):
-            where = _render_place(fault["loc"])
-            what = _PLAIN_WORDS.get(fault["type"], fault["msg"].removeprefix("Value error, "))
-            problems.add(code, _shorten(f"{where}: {what}" if where else what), shown(name))
+        for fault in describe_faults(error):
+            problems.add(code, _shorten(fault), shown(name))
         return None
-
-
-def _render_place(parts: Iterable[int | str]) -> str:
-    """Write a place in a model as a person would: ``tracks[2].title``, counting from 1."""
-    place = ""
-    for part in parts:
-        place += f"[{part + 1}]" if isinstance(part, int) else f".{part}" if place else str(part)
-    return place
 
 
 def _has_clashing_files(benchmark: Benchmark, problems: Problems) -> bool:

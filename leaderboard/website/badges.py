@@ -18,7 +18,7 @@ BACKS = {RANKED: "#1a4fb4", NOT_RANKED: "#5a6068", SYNTHETIC: "#7a5c00"}
 LETTER_SIZE, PADDING = 11, 6
 ENDPOINT = "https://img.shields.io/endpoint?url="
 ADDRESS = "ADDRESS-OF-THIS-SITE"
-"""Stands for where the site is served, which the site itself does not know."""
+"""Stands for where the site is served, where the site itself does not know it."""
 
 
 def badge_path(slug: str) -> str:
@@ -43,13 +43,14 @@ def _measure(words: str) -> float:
 
 
 def list_snippets(entry: Entry, material: Material) -> Iterator[Fact]:
-    """Write what shows the badge elsewhere, for its reader to put the site's address in."""
+    """Write what shows the badge elsewhere; an unknown address is for its reader to put in."""
     slug, title = entry.slug, material.reference.benchmark.title
-    page = f"{ADDRESS}/{submission_path(slug)}"
-    yield Fact("Markdown", f"[![{title}]({ADDRESS}/{picture_path(slug)})]({page})", is_code=True)
-    picture = f'<img src="{ADDRESS}/{picture_path(slug)}" alt="{title}">'
+    site = material.texts.url or f"{ADDRESS}/"
+    page = f"{site}{submission_path(slug)}"
+    yield Fact("Markdown", f"[![{title}]({site}{picture_path(slug)})]({page})", is_code=True)
+    picture = f'<img src="{site}{picture_path(slug)}" alt="{title}">'
     yield Fact("HTML", f'<a href="{page}">{picture}</a>', is_code=True)
-    yield Fact("shields.io", f"![{title}]({ENDPOINT}{ADDRESS}/{badge_path(slug)})", is_code=True)
+    yield Fact("shields.io", f"![{title}]({ENDPOINT}{site}{badge_path(slug)})", is_code=True)
 
 
 def render_badges(material: Material) -> Iterator[tuple[str, bytes]]:

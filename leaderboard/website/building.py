@@ -25,11 +25,13 @@ from leaderboard.website.methods import compose_method
 from leaderboard.website.pages import Page
 from leaderboard.website.paper_figures import compose_figure
 from leaderboard.website.people_pages import compose_people
+from leaderboard.website.previews import render_preview
 from leaderboard.website.property_tables import compose_properties
 from leaderboard.website.published_tables import compose_published
-from leaderboard.website.rendering import frame_of, render_assets, render_feed, render_page
+from leaderboard.website.rendering import frame_of, logo_path, render_assets, render_feed, render_page
 from leaderboard.website.replacing import refuse_other_content, replace_site
 from leaderboard.website.scorecards import compose_scorecard
+from leaderboard.website.sitemaps import SITEMAP_PATH, render_sitemap
 from leaderboard.website.stamps import digest_inputs, is_current
 from leaderboard.website.texts import load_texts
 from leaderboard.website.trial_cards import compose_trial_pages
@@ -118,16 +120,23 @@ def render_site(
     material: Material, pages: Iterable[tuple[str, Page]], commit: str = ""
 ) -> Iterator[tuple[str, bytes]]:
     """Render every file of the site as its path and its bytes, one after the other."""
-    frame = frame_of(material.reference, commit)
+    frame = frame_of(material.reference, commit, material.texts)
     yield ".nojekyll", b""
     yield from render_assets().items()
+    if material.texts.logo:
+        yield logo_path(material.texts.logo), material.texts.logo.content
+    paths = []
     for template, page in pages:
+        paths.append(page.path)
         yield page.path, render_page(template, frame, page)
         yield from ((file.path, file.content) for file in page.data_files)
         yield from render_figures(frame, [page])
     yield from render_exports(material)
     yield from render_badges(material)
     yield "feed.xml", render_feed(compose_feed(material))
+    if frame.site:
+        yield SITEMAP_PATH, render_sitemap(frame.site, paths)
+        yield frame.preview, render_preview(material, frame)
     for publication in material.publications:
         for name, content in publication.files.items():
             yield f"submissions/{publication.entry.slug}/{name}", content

@@ -17,9 +17,10 @@ class FeedItem:
 
 @dataclass(frozen=True)
 class Feed:
-    """The news feed."""
+    """The news feed; ``site`` is where the site is served, empty where that is not known."""
 
     id: str
+    site: str
     title: str
     updated: str
     entries: tuple[FeedItem, ...]

@@ -20,10 +20,12 @@ def compose_feed(material: Material) -> Feed:
     benchmark = material.reference.benchmark
     entries = [p.entry for p in material.publications if not p.entry.is_baseline]
     entries.sort(key=lambda entry: entry.metadata.submission.date, reverse=True)
+    title = material.texts.title or f"{benchmark.title} leaderboard"
     items = tuple(_compose_item(entry, material) for entry in entries)
     return Feed(
         id=_name_forever(material, ""),
-        title=f"{benchmark.title} leaderboard" + (" (synthetic)" if material.reference.is_synthetic else ""),
+        site=material.texts.url,
+        title=title + (" (synthetic)" if material.reference.is_synthetic else ""),
         updated=items[0].updated if items else _at_midnight(NEVER),
         entries=items,
     )

@@ -22,7 +22,12 @@ def draw_board(board: Board, material: Material) -> tuple[Drawing, ...]:
     """Draw accuracy of the ranked submissions, and human r where there are people; nothing without any."""
     if not board.ranked:
         return ()
-    return tuple(_draw_overall(board, material, metric) for metric in _choose_metrics(material))
+    return tuple(_draw_overall(board, material, metric, DRAWN) for metric in _choose_metrics(material))
+
+
+def draw_top(board: Board, material: Material, n: int) -> Drawing | None:
+    """Draw accuracy of the first n ranked submissions; nothing without any."""
+    return _draw_overall(board, material, PLOTTED[0], n) if board.ranked else None
 
 
 def draw_scopes(entry: Entry, material: Material) -> tuple[Drawing, ...]:
@@ -42,7 +47,7 @@ def draw_part(scope: str, board: Board, material: Material) -> Drawing:
         Forest(
             key=f"forest-{board.track.id}",
             title=f"{metric.title}: {board.track.title}",
-            caption=f"{_name_drawn(board)} in the order of their board, with 95 % intervals.",
+            caption=f"{_name_drawn(board, DRAWN)} in the order of their board, with 95 % intervals.",
             quantity=metric,
             rows=tuple(rows),
             bands=(Band("people", people),) if people and people.value is not None else (),
@@ -67,20 +72,18 @@ def _choose_metrics(material: Material) -> tuple[str, ...]:
     return PLOTTED if material.people else PLOTTED[:1]
 
 
-def _name_drawn(board: Board) -> str:
+def _name_drawn(board: Board, n: int) -> str:
     n_ranked = len(board.ranked)
-    return (
-        "Ranked submissions" if n_ranked <= DRAWN else f"The first {DRAWN} of {n_ranked:,} ranked submissions"
-    )
+    return "Ranked submissions" if n_ranked <= n else f"The first {n} of {n_ranked:,} ranked submissions"
 
 
-def _draw_overall(board: Board, material: Material, metric: str) -> Drawing:
-    entries = [row.entry for row in board.ranked[:DRAWN]]
+def _draw_overall(board: Board, material: Material, metric: str, n: int) -> Drawing:
+    entries = [row.entry for row in board.ranked[:n]]
     return draw_forest(
         Forest(
             key=f"forest-{metric}".replace("_", "-"),
             title=find_metric(metric).title,
-            caption=f"{_name_drawn(board)}, overall, with 95 % intervals.",
+            caption=f"{_name_drawn(board, n)}, overall, with 95 % intervals.",
             quantity=find_metric(metric),
             rows=tuple(ForestRow(e.metadata.submission.name, 1, e.score(metric)) for e in entries),
             bands=list_bands(material, metric),

@@ -257,6 +257,7 @@ class SubmissionPage(Page):
     citation: str
     badge: Badge
     snippets: tuple[Fact, ...]
+    has_address: bool
 
     @property
     def figures(self) -> tuple[Drawing, ...]:
@@ -269,7 +270,8 @@ class Frame:
     """What surrounds every page: title, synthetic or not, navigation and provenance of the numbers.
 
     ``properties`` is the path of the first property's page, which leads to the others; ``scripts`` are what
-    enhances a board.
+    enhances a board; ``logo`` is empty without one,
+    ``site`` is where the site is served, empty where that is not known, and ``preview`` a picture of it.
     """
 
     title: str
@@ -283,4 +285,7 @@ class Frame:
     metrics_version: int
     stylesheet: str
     icon: str
+    logo: str
+    site: str
+    preview: str
     scripts: tuple[str, ...]

@@ -14,10 +14,12 @@ from leaderboard.website.describing import property_path
 from leaderboard.website.escaping import EscapingEnvironment
 from leaderboard.website.feed_items import Feed
 from leaderboard.website.pages import Frame, Page
+from leaderboard.website.texts import NO_TEXTS, Logo, Texts
 
 STYLESHEET = "site.css"
 ICON = "icon.svg"
 SCRIPTS = ("vendor/datatables.js", "site.js")
+PREVIEW_PATH = "preview.png"
 LICENSES = ("vendor/datatables-license.txt",)
 N_HASH_DIGITS = 10
 N_COMMIT_DIGITS = 12
@@ -33,11 +35,11 @@ def render_feed(feed: Feed) -> bytes:
     return environment().get_template("feed.xml").render(feed=feed).encode()
 
 
-def frame_of(reference: Reference, commit: str = "") -> Frame:
+def frame_of(reference: Reference, commit: str = "", texts: Texts = NO_TEXTS) -> Frame:
     """Gather what surrounds every page; the commit is empty if it is not known."""
     benchmark, manifest = reference.benchmark, reference.manifest
     return Frame(
-        title=f"{benchmark.title} leaderboard",
+        title=texts.title or f"{benchmark.title} leaderboard",
         properties=property_path(benchmark.properties[0].name),
         is_synthetic=reference.is_synthetic,
         benchmark=f"{benchmark.title} {benchmark.version}",
@@ -48,6 +50,9 @@ def frame_of(reference: Reference, commit: str = "") -> Frame:
         metrics_version=METRICS_VERSION,
         stylesheet=asset_path(STYLESHEET),
         icon=asset_path(ICON),
+        logo=logo_path(texts.logo) if texts.logo else "",
+        site=texts.url,
+        preview=PREVIEW_PATH,
         scripts=tuple(asset_path(name) for name in SCRIPTS),
     )
 
@@ -59,8 +64,16 @@ def render_assets() -> dict[str, bytes]:
 
 def asset_path(name: str) -> str:
     """Name an asset after its content, so that a browser never shows a new page with an old style."""
-    file = PurePosixPath(name)
-    return f"assets/{file.stem}.{sha256_hex(_read_asset(name))[:N_HASH_DIGITS]}{file.suffix}"
+    return _name_asset(PurePosixPath(name), _read_asset(name))
+
+
+def logo_path(logo: Logo) -> str:
+    """Name the picture beside the title in the same way."""
+    return _name_asset(PurePosixPath(logo.name), logo.content)
+
+
+def _name_asset(file: PurePosixPath, content: bytes) -> str:
+    return f"assets/{file.stem}.{sha256_hex(content)[:N_HASH_DIGITS]}{file.suffix}"
 
 
 @cache

@@ -68,6 +68,7 @@ def compose_scorecard(publication: Publication, material: Material) -> Submissio
         citation=cite_submission(entry, material),
         badge=compose_badge(entry, material),
         snippets=tuple(list_snippets(entry, material)),
+        has_address=bool(material.texts.url),
     )
 
 

@@ -100,6 +100,7 @@ def _list_attributes(ink: Ink, palette: Palette) -> tuple[tuple[str, str], ...]:
     return tuple((name, value) for name, value in attributes.items() if value)
 
 
+TITLE_SIZE = 24
 HEADING_SIZE = 15
 TEXT_SIZE = 12
 SMALL_SIZE = 10.5
@@ -119,6 +120,7 @@ POINT = Ink(6, fill="model")
 PEOPLE_POINT = Ink(6, fill="people")
 YES_POINT = Ink(6, stroke="yes", thickness=4.6, opacity=0.7, is_round=True)
 NO_POINT = Ink(6, stroke="no", thickness=1.3, opacity=0.8)
+TITLE = Ink(7, fill="ink", size=TITLE_SIZE, is_bold=True)
 HEADING = Ink(7, fill="ink", size=HEADING_SIZE, is_bold=True)
 TEXT = Ink(7, fill="ink", size=TEXT_SIZE)
 BOLD = Ink(7, fill="ink", size=TEXT_SIZE, is_bold=True)
