@@ -76,17 +76,15 @@ def compose_board(board: Board, material: Material) -> BoardPage:
         drawings=draw_board(board, material),
         figure=Link("by property, on easy and on hard trials", figure_path(board)),
         remarks=list_remarks(board, material),
-        comparisons=_link_comparisons(board, material),
+        comparisons=_link_comparisons(material),
         pairs=tuple(pair_key(c.a, c.b) for c in list_comparisons(board, material)),
         elsewhere=_link_unplaced(material) if board.track.default else (),
         has_citation=bool(material.texts.citation),
     )
 
 
-def _link_comparisons(board: Board, material: Material) -> Link | None:
-    if not list_comparisons(board, material):
-        return None
-    return Link("comparisons of those at the top", COMPARISONS_PATH)
+def _link_comparisons(material: Material) -> Link | None:
+    return Link("comparisons", COMPARISONS_PATH) if len(material.publications) > 1 else None
 
 
 def _choose_columns(material: Material) -> tuple[ScoreColumn, ...]:

@@ -106,7 +106,7 @@ def compose_pages(material: Material) -> Iterator[tuple[str, Page]]:
     yield from (("trials.html", page) for page in compose_trial_lists(material))
     yield from (("trial.html", page) for page in compose_trial_pages(material))
     yield from (("comparison.html", page) for page in compose_comparison_pages(material))
-    if material.comparisons:
+    if len(material.publications) > 1:
         yield "comparisons.html", compose_comparisons(material)
     yield "people.html", compose_people(material)
     yield "method.html", compose_method(material)

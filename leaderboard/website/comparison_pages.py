@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from leaderboard.website.figures.marks import Drawing
-from leaderboard.website.pages import Fact, Link, Page, ScoreTable
+from leaderboard.website.pages import DataFile, Fact, Link, Page, ScoreTable
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,31 @@ class ComparisonPage(Page):
 
 
 @dataclass(frozen=True)
+class Choice:
+    """A submission that can be chosen, and the file of its answers."""
+
+    slug: str
+    name: str
+    file: DataFile
+
+
+@dataclass(frozen=True)
 class ComparisonsPage(Page):
-    """All ready-made comparisons, a table for each board."""
+    """Any two to six submissions, by a script; and the ready-made comparisons, a table for each board.
+
+    Attributes
+    ----------
+    choices
+        Who can be compared.
+    ground
+        What the script needs of the reference.
+    """
 
     tables: tuple[ScoreTable, ...]
+    choices: tuple[Choice, ...]
+    ground: DataFile
+
+    @property
+    def data_files(self) -> tuple[DataFile, ...]:
+        """All that the script loads."""
+        return (self.ground, *(choice.file for choice in self.choices))

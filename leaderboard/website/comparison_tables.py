@@ -7,11 +7,11 @@ from leaderboard.grading import find_metric
 from leaderboard.metrics.resampling import Interval
 from leaderboard.metrics.undefined import Estimate, Undefined
 from leaderboard.models import Score
-from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board
+from leaderboard.website.comparison_data import render_contenders, render_ground
 from leaderboard.website.comparison_figures import draw_differences
-from leaderboard.website.comparison_pages import ComparisonPage, ComparisonsPage, Side, TrialLine
-from leaderboard.website.describing import board_path, count_of, submission_path
+from leaderboard.website.comparison_pages import Choice, ComparisonPage, ComparisonsPage, Side, TrialLine
+from leaderboard.website.describing import board_path, count_of, submission_path, title_scopes
 from leaderboard.website.figures.marks import Drawing
 from leaderboard.website.material import Material
 from leaderboard.website.neighbours import N_TOP
@@ -60,23 +60,32 @@ def comparison_path(a: str, b: str) -> str:
 
 
 def link_comparisons(slug: str, material: Material) -> tuple[Link, ...]:
-    """Link the comparisons of a submission, each by the other's name."""
+    """Link the comparisons of a submission, each by the other's name, and the page to compare it with any."""
     found = [comparison for comparison in material.comparisons if slug in (comparison.a, comparison.b)]
     names = _name_submissions(material) if found else {}
-    return tuple(Link(names[c.b if c.a == slug else c.a], comparison_path(c.a, c.b)) for c in found)
+    links = [Link(names[c.b if c.a == slug else c.a], comparison_path(c.a, c.b)) for c in found]
+    has_others = len(material.publications) > 1
+    return (*links, Link("any others", f"{COMPARISONS_PATH}?of={slug}")) if has_others else ()
 
 
 def compose_comparisons(material: Material) -> ComparisonsPage:
-    """Gather the list of all comparisons."""
+    """Gather the page that compares any submissions, and lists the ready-made comparisons."""
     by_board = ((board, list_comparisons(board, material)) for board in material.boards)
     return ComparisonsPage(
         path=COMPARISONS_PATH,
         title="Comparisons",
         summary=(
-            f"At the top of each board, each of the first {N_TOP} submissions with the next one and with the "
-            "best: what tells the two apart, on the same trials and with the same resamples."
+            "What tells submissions apart, on the same trials and with the same resamples. Each of the first "
+            f"{N_TOP} of a board has a page beside the next one, and beside the best."
         ),
         tables=tuple(_list_board(board, found, material) for board, found in by_board if found),
+        choices=tuple(
+            Choice(slug, name, file)
+            for (slug, name), file in zip(
+                _name_submissions(material).items(), render_contenders(material), strict=True
+            )
+        ),
+        ground=render_ground(material.reference),
     )
 
 
@@ -216,16 +225,11 @@ def _print_scope(
 
 
 def _list_scopes(comparison: Comparison, material: Material) -> Iterator[tuple[ScopeComparison, str, int]]:
-    """Yield each scope with its title and level; the only scenario of a property is the property."""
-    benchmark = material.reference.benchmark
-    titles = {scenario.id: scenario.title for scenario in benchmark.scenarios}
-    members = (benchmark.scenarios_of(property_.name) for property_ in benchmark.properties)
-    alone = {scenarios[0].id for scenarios in members if len(scenarios) == 1}
-    for scope in comparison.scopes:
-        if scope.name == OVERALL:
-            yield scope, "Overall", 0
-        elif scope.name not in alone:
-            yield scope, titles.get(scope.name, scope.name), 2 if scope.name in titles else 1
+    """Yield each scope that was compared with its title and level."""
+    compared = {scope.name: scope for scope in comparison.scopes}
+    for name, title, level in title_scopes(compared, material.reference.benchmark):
+        if name in compared:
+            yield compared[name], title, level
 
 
 def _tabulate_scores(comparison: Comparison, material: Material) -> ScoreTable:

@@ -1,10 +1,13 @@
 """Words and addresses that several pages share."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from leaderboard.grading.panels import N_CROSSFIT_SPLITS
 from leaderboard.grading.scopes import CROSSFIT_SUBSETS
 from leaderboard.metrics.accuracy import Floats
+from leaderboard.models import Benchmark
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Board, Entry
 from leaderboard.website.material import Material
@@ -91,6 +94,21 @@ def describe_people(material: Material) -> str:
 def warn_of_simulation(material: Material) -> str:
     """Say what every figure of a simulated reference must say itself, since it may be shown alone."""
     return "Synthetic reference: labels and people are simulated." if material.reference.is_synthetic else ""
+
+
+def title_scopes(names: Collection[str], benchmark: Benchmark) -> list[tuple[str, str, int]]:
+    """Give scopes in their order: name, title, and 0 for overall, 1 for a property, 2 for a scenario.
+
+    A property of which only some scenarios are named is listed too, as the heading of these. The only
+    scenario of a property is left out: its scores are the property's.
+    """
+    scopes = [(OVERALL, "Overall", 0)] if OVERALL in names else []
+    for name in (property_.name for property_ in benchmark.properties):
+        members = benchmark.scenarios_of(name)
+        scenarios = [(s.id, s.title, 2) for s in members if s.id in names and len(members) > 1]
+        if scenarios or name in names:
+            scopes += [(name, name, 1), *scenarios]
+    return scopes
 
 
 def answers_of(entry: Entry) -> Floats:

@@ -270,7 +270,7 @@ class Frame:
     """What surrounds every page: title, synthetic or not, navigation and provenance of the numbers.
 
     ``properties`` is the path of the first property's page, which leads to the others; ``scripts`` are what
-    enhances a board; ``logo`` is empty without one,
+    enhances a board, ``comparer`` is what compares; ``logo`` is empty without one,
     ``site`` is where the site is served, empty where that is not known, and ``preview`` a picture of it.
     """
 
@@ -289,3 +289,4 @@ class Frame:
     site: str
     preview: str
     scripts: tuple[str, ...]
+    comparer: str

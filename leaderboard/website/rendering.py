@@ -19,6 +19,7 @@ from leaderboard.website.texts import NO_TEXTS, Logo, Texts
 STYLESHEET = "site.css"
 ICON = "icon.svg"
 SCRIPTS = ("vendor/datatables.js", "site.js")
+COMPARER = "compare.js"
 PREVIEW_PATH = "preview.png"
 LICENSES = ("vendor/datatables-license.txt",)
 N_HASH_DIGITS = 10
@@ -54,12 +55,13 @@ def frame_of(reference: Reference, commit: str = "", texts: Texts = NO_TEXTS) ->
         site=texts.url,
         preview=PREVIEW_PATH,
         scripts=tuple(asset_path(name) for name in SCRIPTS),
+        comparer=asset_path(COMPARER),
     )
 
 
 def render_assets() -> dict[str, bytes]:
     """Map the paths of style, icon, scripts and their licenses in the site to their bytes."""
-    return {asset_path(name): _read_asset(name) for name in (STYLESHEET, ICON, *SCRIPTS, *LICENSES)}
+    return {asset_path(name): _read_asset(name) for name in (STYLESHEET, ICON, *SCRIPTS, COMPARER, *LICENSES)}
 
 
 def asset_path(name: str) -> str:

@@ -8,7 +8,7 @@ from leaderboard.grading.observations import NOT_A_PROPERTY
 from leaderboard.models import Benchmark, Score
 from leaderboard.models.benchmark import OVERALL
 from leaderboard.ranking import Entry
-from leaderboard.website.describing import SUBSET_TITLES, describe_subset, is_crossfit
+from leaderboard.website.describing import SUBSET_TITLES, describe_subset, is_crossfit, title_scopes
 from leaderboard.website.material import Material
 from leaderboard.website.numbers import Footnotes, unit_of
 from leaderboard.website.pages import Column, Fact, ScopeRow, ScoreTable
@@ -26,19 +26,9 @@ def compose_score_tables(entry: Entry, material: Material) -> tuple[ScoreTable, 
 
 
 def list_scopes(entry: Entry, benchmark: Benchmark, subset: str) -> list[tuple[str, str, int]]:
-    """List what was graded: scope, title, and 0 for overall, 1 for a property, 2 for a scenario.
-
-    A property of which only some scenarios were graded is listed too, as the heading of these. The only
-    scenario of a property is left out: its scores are the property's.
-    """
+    """List what was graded, each scope with its title and level."""
     graded = {scope for scope, subsets in entry.result.scores.items() if subset in subsets}
-    scopes = [(OVERALL, "Overall", 0)] if OVERALL in graded else []
-    for name in (property_.name for property_ in benchmark.properties):
-        members = benchmark.scenarios_of(name)
-        scenarios = [(s.id, s.title, 2) for s in members if s.id in graded and len(members) > 1]
-        if scenarios or name in graded:
-            scopes += [(name, name, 1), *scenarios]
-    return scopes
+    return title_scopes(graded, benchmark)
 
 
 @dataclass(frozen=True)

@@ -327,26 +327,30 @@ def test_hostile_names_stay_text(page: Page) -> None:
 
 def test_two_chosen_lead_to_their_page(page: Page) -> None:
     """A ready-made comparison is linked, whichever of the two was chosen first."""
-    assert page.locator(".tray").inner_text() == "Tick two to compare them."
+    assert page.locator(".tray").inner_text() == "Tick two to six to compare them."
     page.get_by_label("Compare Good too").check()
-    assert page.locator(".tray").inner_text() == "Good too: tick another to compare it with."
+    assert page.locator(".tray").inner_text() == "Good too: tick others to compare it with."
     page.get_by_role("checkbox", name="Compare Good", exact=True).check()
     page.get_by_role("link", name="Compare Good too with Good").click()
     assert page.url.endswith("/compare/good--vs--good-too/index.html")
     assert page.get_by_role("heading", level=1).inner_text() == "Good and Good too"
 
 
-def test_others_are_compared_by_the_command(page: Page, rows: list[dict[str, Any]]) -> None:
-    """Without a ready-made page the board names the command, and computes nothing itself."""
+def test_any_two_to_six_lead_to_a_comparison(page: Page, rows: list[dict[str, Any]]) -> None:
+    """Without a ready-made page the board links the page that compares any; a seventh replaces the first."""
     last = of_kind(rows, "ranked")[-1]
+    link = page.locator(".tray a")
     page.locator(f"tr#{last['slug']} .choose").check()
     page.locator("tr#part .choose").check()
-    assert page.locator(".tray code").inner_text() == f"leaderboard compare {last['slug']} part"
-    page.locator("tr#oracle .choose").check()
-    assert page.locator(".tray code").inner_text() == "leaderboard compare part oracle"
-    assert page.locator(".choose:checked").count() == 2
-    page.locator("tr#part .choose").uncheck()
-    assert page.locator(".tray").inner_text() == "Oracle: tick another to compare it with."
+    assert link.inner_text() == f"Compare {last['metadata']['submission']['name']} with Part"
+    assert link.get_attribute("href") == f"compare/index.html?of={last['slug']},part"
+    more = ["good", "good-too", "flat", "oracle", "hostile"]
+    for slug in more:
+        page.locator(f"tr#{slug} .choose").check()
+    assert page.locator(".choose:checked").count() == 6
+    assert link.inner_text() == f"Compare Part, Good, Good too, Chance, Oracle, {HOSTILE_NAME}"
+    link.click()
+    assert page.url.endswith(f"/compare/index.html?of={','.join(['part', *more])}")
 
 
 def test_the_view_can_be_downloaded(page: Page, rows: list[dict[str, Any]], tmp_path: Path) -> None:
@@ -540,7 +544,7 @@ def test_other_tracks_have_controls_too(visit: Visit) -> None:
     """A board in a folder of its own sorts and compares as the first one does."""
     page = visit.open("tracks/without/index.html?compare=other-track,flat")
     assert count(page) == "All 1 submission"
-    assert page.locator(".tray code").inner_text() == "leaderboard compare other-track flat"
+    assert page.locator(".tray a").get_attribute("href") == "../../compare/index.html?of=other-track,flat"
 
 
 def test_paper_has_no_controls(page: Page) -> None:

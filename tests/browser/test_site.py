@@ -32,6 +32,7 @@ KINDS = {
     "trial": trial_path("alpha_one-copy0/set=a,b/0000"),
     "comparison": "compare/good--vs--good-too/index.html",
     "comparisons": "compare/index.html",
+    "comparison of several": "compare/index.html?of=good,hostile,flat",
     "published": "published.html",
     "data": "data.html",
     "about": "about.html",

@@ -145,13 +145,14 @@ def test_neighbours_and_the_best_are_compared() -> None:
 
 
 def test_comparisons_are_linked_from_both_submissions_and_the_board(files: dict[str, bytes]) -> None:
-    """And from the list of all, which every comparison leads to."""
+    """And from the list of all, which every comparison, board and submission leads to."""
     for path in ("submissions/good/index.html", "submissions/hostile/index.html"):
         assert f"../../{GOOD_AND_HOSTILE}".encode() in files[path]
     assert b'href="compare/index.html"' in files["index.html"]
     assert b'href="../compare/good--vs--hostile/index.html"' in files["compare/index.html"]
     assert b'href="../../compare/index.html"' in files[GOOD_AND_HOSTILE]
-    assert b"compare/" not in files["tracks/without/index.html"]
+    assert b'href="../../compare/index.html"' in files["tracks/without/index.html"]
+    assert b'href="../../compare/index.html?of=part"' in files["submissions/part/index.html"]
 
 
 def test_the_list_shows_what_the_pages_show(material: Material) -> None:

@@ -151,7 +151,7 @@ def test_the_footer_says_what_the_numbers_are_made_with(pages: dict[str, Element
 
 def resolve(path: str, target: str) -> str:
     """Follow a relative link from a page; a link that leaves the site keeps its dots."""
-    file = unquote(target.partition("#")[0])
+    file = unquote(target.partition("#")[0].partition("?")[0])
     return normpath(f"{path}/../{file}") if file else path
 
 
@@ -200,21 +200,24 @@ def test_tables_fit_together(pages: dict[str, Element]) -> None:
             assert all(cell.get("scope") for cell in table.iter("th")), path
 
 
-def test_only_boards_have_scripts(files: dict[str, bytes], pages: dict[str, Element]) -> None:
+def test_boards_and_comparisons_have_scripts(files: dict[str, bytes], pages: dict[str, Element]) -> None:
     """The library first, then our own; classic, so that they run from plain files, and empty inside."""
     for path, page in pages.items():
         scripts = list(page.iter("script"))
         sources = [resolve(path, script.get("src", "")) for script in scripts]
         is_board = any(table.get("class") == "board" for table in page.iter("table"))
         names = [source.split(".")[0] for source in sources]
-        assert names == (["assets/datatables", "assets/site"] if is_board else []), path
+        is_comparer = any(section.get("class") == "compared" for section in page.iter("section"))
+        of_comparer = ["data/comparing", "assets/compare"] if is_comparer else []
+        assert names == (["assets/datatables", "assets/site"] if is_board else of_comparer), path
         assert all(source in files for source in sources), path
         assert all(set(script.attrib) == {"defer", "src"} and not script.text for script in scripts), path
 
 
-def test_a_board_and_our_script_are_small(files: dict[str, bytes]) -> None:
-    """Compressed, our own script stays within 12 kB; it is strict, and makes no element from text."""
-    (path,) = [path for path in files if re.fullmatch(r"assets/site\.[0-9a-f]{10}\.js", path)]
+@pytest.mark.parametrize("name", ["site", "compare"])
+def test_our_scripts_are_small(files: dict[str, bytes], name: str) -> None:
+    """Compressed, the one that a page loads stays within 12 kB; strict, and no element is made from text."""
+    (path,) = [path for path in files if re.fullmatch(rf"assets/{name}\.[0-9a-f]{{10}}\.js", path)]
     assert len(gzip.compress(files[path])) < 12_000
     script = files[path].decode()
     assert '"use strict";' in script

@@ -6,6 +6,7 @@
 
 (() => {
   const MAX_TEXT = 100;
+  const MOST_COMPARED = 6;
   const ROWS_A_PAGE = 100;
   const MILLION = 1e6;
   const N_DECIMALS = 6;
@@ -179,7 +180,7 @@
       from: one("from", isDay),
       to: one("to", isDay),
       hidden,
-      chosen: list("compare", known.slugs).slice(0, 2),
+      chosen: list("compare", known.slugs).slice(0, MOST_COMPARED),
       part: Number(one("page", (value) => PART.test(value) && value <= known.nParts)) || 1,
       sort: hidden.includes(sort.key) ? SORTED_BY_RANK : sort,
     };
@@ -507,17 +508,14 @@
     }
 
     describeChosen(chosen) {
-      if (!chosen.length) return ["Tick two to compare them."];
-      if (chosen.length === 1) return [`${chosen[0].name}: tick another to compare it with.`];
-      const [a, b] = chosen;
-      const keys = [`${a.slug}--vs--${b.slug}`, `${b.slug}--vs--${a.slug}`];
+      if (!chosen.length) return ["Tick two to six to compare them."];
+      if (chosen.length === 1) return [`${chosen[0].name}: tick others to compare it with.`];
+      const slugs = chosen.map(({ slug }) => slug);
+      const keys = [slugs, slugs.toReversed()].map((two) => two.join("--vs--"));
       const pair = keys.find((key) => this.pairs.has(key));
-      if (!pair) {
-        const command = make("code", {}, `leaderboard compare ${a.slug} ${b.slug}`);
-        return ["Not compared here. On your machine: ", command];
-      }
-      const href = `${this.table.dataset.up}compare/${pair}/index.html`;
-      return [make("a", { href }, `Compare ${a.name} with ${b.name}`)];
+      const page = pair ? `${pair}/index.html` : `index.html?of=${slugs.join(",")}`;
+      const names = chosen.map(({ name }) => name).join(chosen.length === 2 ? " with " : ", ");
+      return [make("a", { href: `${this.table.dataset.up}compare/${page}` }, `Compare ${names}`)];
     }
 
     /* Change the state; what is typed letter by letter is one step back, not many. */
@@ -587,7 +585,7 @@
 
     choose(slug, isChosen) {
       const others = this.state.chosen.filter((other) => other !== slug);
-      this.state.chosen = isChosen ? [...others.slice(-1), slug] : others;
+      this.state.chosen = isChosen ? [...others.slice(1 - MOST_COMPARED), slug] : others;
       this.showChosen();
       this.remember();
     }
