@@ -10,6 +10,7 @@ from pathlib import Path
 
 from leaderboard.files import hold_folder, remove_leftovers
 from leaderboard.instance import Instance
+from leaderboard.ledger import load_ledger
 from leaderboard.reference import load_reference
 from leaderboard.website.about_pages import compose_about
 from leaderboard.website.badges import render_badges
@@ -33,6 +34,8 @@ from leaderboard.website.replacing import refuse_other_content, replace_site
 from leaderboard.website.scorecards import compose_scorecard
 from leaderboard.website.sitemaps import SITEMAP_PATH, render_sitemap
 from leaderboard.website.stamps import digest_inputs, is_current
+from leaderboard.website.status_pages import compose_status
+from leaderboard.website.submit_pages import compose_submit
 from leaderboard.website.texts import load_texts
 from leaderboard.website.trial_cards import compose_trial_pages
 from leaderboard.website.trial_grids import compose_submission_trials, compose_trials
@@ -84,7 +87,8 @@ def _build(instance: Instance, folder: Path, commit: str) -> SiteReport:
         return SiteReport(folder, _count_pages(folder), was_current=True)
     reference = load_reference(instance)
     publications = load_publications(instance, reference)
-    material = gather(reference, publications, load_published(instance), load_texts(instance))
+    published, texts = load_published(instance), load_texts(instance)
+    material = gather(reference, publications, published, texts, record=load_ledger(instance).lines)
     replace_site(folder, render_site(material, compose_pages(material), commit), inputs)
     return SiteReport(folder, _count_pages(folder))
 
@@ -113,6 +117,8 @@ def compose_pages(material: Material) -> Iterator[tuple[str, Page]]:
     yield "published.html", compose_published(material)
     yield "data.html", compose_data(material)
     yield "about.html", compose_about(material)
+    yield "submit.html", compose_submit(material)
+    yield "status.html", compose_status(material)
     yield "404.html", Page("404.html", "Page not found", "There is nothing under this address.")
 
 

@@ -61,6 +61,8 @@ class Material:
         Of submissions at the top of each board, board by board.
     texts
         What maintainers say.
+    record
+        The public record: what was added, graded again or withdrawn, in the order of time.
     """
 
     reference: Reference
@@ -70,6 +72,7 @@ class Material:
     published: tuple[PublishedNumber, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
     texts: Texts = NO_TEXTS
+    record: tuple[LedgerLine, ...] = ()
 
     @cached_property
     def standings(self) -> dict[str, tuple[Board, Row]]:
@@ -152,6 +155,8 @@ def gather(
     publications: Sequence[Publication],
     published: Sequence[PublishedNumber] = (),
     texts: Texts = NO_TEXTS,
+    *,
+    record: Sequence[LedgerLine] = (),
 ) -> Material:
     """Rank the submissions, compare those at the top, and score people."""
     entries = [publication.entry for publication in publications]
@@ -166,6 +171,7 @@ def gather(
         published=tuple(published),
         comparisons=tuple(compare_neighbours(boards, yardstick)),
         texts=texts,
+        record=tuple(record),
     )
 
 

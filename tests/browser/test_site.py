@@ -36,6 +36,8 @@ KINDS = {
     "published": "published.html",
     "data": "data.html",
     "about": "about.html",
+    "submit": "submit.html",
+    "status": "status.html",
     "missing page": "404.html",
 }
 MEASURE_CELL = """(cell) => [cell, cell.querySelector(".interval")].map(({ firstChild: text }) => {

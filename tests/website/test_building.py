@@ -29,7 +29,7 @@ def test_the_site_goes_where_it_is_told(instance: Instance, tmp_path: Path) -> N
     report = build_site(instance)
     assert report.path == instance.dist_dir
     pages = [path for path in folder_files(report.path) if path.endswith(".html")]
-    assert report.n_pages == len(pages) == 48
+    assert report.n_pages == len(pages) == 50
     elsewhere = build_site(instance, tmp_path / "elsewhere")
     assert folder_files(elsewhere.path) == folder_files(report.path)
 
@@ -168,7 +168,7 @@ def test_two_builds_at_once_do_not_meet(instance: Instance) -> None:
     with ThreadPoolExecutor(2) as pool:
         reports = list(pool.map(build_site, [instance, instance]))
     assert sorted(report.was_current for report in reports) == [False, True]
-    assert {report.n_pages for report in reports} == {48}
+    assert {report.n_pages for report in reports} == {50}
 
 
 def test_leftovers_are_looked_for_while_nobody_else_builds(
@@ -199,10 +199,10 @@ def test_an_instance_without_submissions_has_a_site(tmp_path: Path) -> None:
     """One board with people on it, a method, and empty lists; every page is sound HTML."""
     report = build_site(write_instance(tmp_path / "empty", submissions=False))
     files = folder_files(report.path)
-    assert report.n_pages == len(list(html_files(files))) == 30
+    assert report.n_pages == len(list(html_files(files))) == 32
     assert json.loads(files["api/leaderboard.json"])["tracks"][0]["rows"] == []
 
 
 def test_pages_of_a_real_folder_are_sound_html(instance: Instance) -> None:
     """Hostile metadata came through files this time, and the strict parser still accepts every page."""
-    assert len(list(html_files(folder_files(build_site(instance).path)))) == 48
+    assert len(list(html_files(folder_files(build_site(instance).path)))) == 50
