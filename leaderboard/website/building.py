@@ -31,6 +31,7 @@ from leaderboard.website.property_tables import compose_properties
 from leaderboard.website.published_tables import compose_published
 from leaderboard.website.rendering import frame_of, logo_path, render_assets, render_feed, render_page
 from leaderboard.website.replacing import refuse_other_content, replace_site
+from leaderboard.website.schemas import SCHEMA_PATH, render_schema
 from leaderboard.website.scorecards import compose_scorecard
 from leaderboard.website.sitemaps import SITEMAP_PATH, render_sitemap
 from leaderboard.website.stamps import digest_inputs, is_current
@@ -138,6 +139,7 @@ def render_site(
         yield from ((file.path, file.content) for file in page.data_files)
         yield from render_figures(frame, [page])
     yield from render_exports(material)
+    yield SCHEMA_PATH, render_schema()
     yield from render_badges(material)
     yield "feed.xml", render_feed(compose_feed(material))
     if frame.site:
