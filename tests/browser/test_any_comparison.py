@@ -186,6 +186,8 @@ def test_headings_lead_to_what_they_mean(visit: Visit) -> None:
     page = open_comparison(visit, "good", "hostile")
     targets = page.locator(".compared thead a").evaluate_all("links => links.map(link => link.href)")
     assert len(set(targets)) == 5
+    named = page.locator(".compared thead a").all_inner_texts()
+    assert named[:5] == ["A: accuracy, %", "A: human r", "B: accuracy, %", "B: human r", "Accuracy"]
     for target in set(targets):
         page.goto(target)
         assert page.locator(":target").count() == 1, target

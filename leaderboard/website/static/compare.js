@@ -177,7 +177,8 @@
       (a.credits[trial] === 1) === isRight && (b.credits[trial] === 1) === isOtherRight)).length;
     const favour = (sign) => byPair.filter((value) => Math.sign(value) === sign).length;
     const counts = [
-      count(true, true), count(true, false), count(false, true), count(false, false), favour(1), favour(-1), favour(0),
+      count(true, true), count(true, false), count(false, true), count(false, false),
+      favour(1), favour(-1), favour(0),
     ];
     const p = findP(byPair);
     const answers = [a, b].map((contender) => inside.map((trial) => contender.answers[trial]));
@@ -203,10 +204,8 @@
   const { up } = place.dataset;
 
   function makeHeading([title, below = "", metric = ""]) {
-    const explained = (text) => make("a", { href: `${up}method.html#${metric}` }, text);
-    const parts = metric && below ? [title, make("small", {}, explained(below))]
-      : [metric ? explained(title) : title, make("small", {}, below)];
-    return make("th", { class: "number", scope: "col" }, ...parts);
+    const name = metric ? make("a", { href: `${up}method.html#${metric}` }, title) : title;
+    return make("th", { class: "number", scope: "col" }, name, make("small", {}, below));
   }
 
   const unseen = (text) => make("span", { class: "unseen" }, text);
@@ -244,7 +243,8 @@
 
   function tabulateScores(contenders, shared) {
     const metrics = [["accuracy", "accuracy, %"], ["human_r", "human r"]].slice(0, trials.people ? 2 : 1);
-    const headings = contenders.flatMap(({ letter }) => metrics.map(([name, title]) => [letter, title, name]));
+    const headings = contenders.flatMap(({ letter }) => (
+      metrics.map(([name, title]) => [`${letter}: ${title}`, "", name])));
     const rows = shared.map(({ index, title, level }) => (
       [title, level, contenders.flatMap(({ scores }) => scores[index])]));
     return makeTable("Scores", "As everywhere on this site, with 95 % intervals.", "Scope", headings, rows);
@@ -256,7 +256,7 @@
     const rows = within.flatMap((scope) => couples.map(([a, b]) => (
       [`${scope.title}, ${a.letter} ${MINUS} ${b.letter}`, scope.level, compare(a, b, scope)])));
     const headings = [
-      ["Points", "accuracy", "accuracy_difference"], ["Exact p", "", "paired_p"], ["Kappa", "", "rival_kappa"],
+      ["Accuracy", "points", "accuracy_difference"], ["Exact p", "", "paired_p"], ["Kappa", "", "rival_kappa"],
       ["Both right", "trials"], ["Only first", "trials"], ["Only second", "trials"], ["Neither", "trials"],
       ["First better", "pairs"], ["Second better", "pairs"], ["Equal", "pairs"],
     ];
